@@ -1,0 +1,22 @@
+# One interface target carries the flags of every granvof target.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+
+add_library(granvof_options INTERFACE)
+target_compile_options(granvof_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # Neither errno nor floating-point traps are read anywhere; without these flags sqrt and selects do not vectorise.
+  -fno-math-errno -fno-trapping-math)
+if(GRANVOF_NATIVE)
+  target_compile_options(granvof_options INTERFACE -march=native)
+endif()
+if(GRANVOF_WERROR)
+  target_compile_options(granvof_options INTERFACE -Werror)
+endif()
+if(GRANVOF_SANITIZE)
+  target_compile_options(granvof_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(granvof_options INTERFACE -fsanitize=address,undefined)
+endif()
+target_include_directories(granvof_options INTERFACE ${CMAKE_SOURCE_DIR})

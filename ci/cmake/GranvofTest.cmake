@@ -1,0 +1,10 @@
+# granvof_test(NAME <target> LABEL unit|verification|regression SOURCES <files> LIBS <libraries>)
+# builds one GoogleTest program; each of its tests becomes a ctest test with that label.
+function(granvof_test)
+  cmake_parse_arguments(ARG "" "NAME;LABEL" "SOURCES;LIBS" ${ARGN})
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  target_link_libraries(${ARG_NAME} PRIVATE granvof_options ${ARG_LIBS} GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${ARG_NAME} PRIVATE
+    GRANVOF_CASES_DIR="${CMAKE_SOURCE_DIR}/cases")
+  gtest_discover_tests(${ARG_NAME} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
+endfunction()

@@ -1,0 +1,158 @@
+// A scene: everything a case file in cases/ says, resolved to SI units and checked.
+//
+// The solver, the DEM-VOF reference and the comparison all read the same file through load_scene().
+// Directions: 0 = x along the tank, 1 = y up, 2 = z across the tank.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace granvof {
+
+using Vec3 = std::array<double, 3>;
+
+// --- walls -------------------------------------------------------------------------------------------
+
+enum class WallKind {
+  no_slip,  // tangential velocity equals the wall's
+  slip,     // no tangential stress
+  coulomb   // solid phase only: tangential stress at most friction * P_s
+};
+
+struct PhaseWall {
+  WallKind kind = WallKind::no_slip;
+  double friction = 0.0;  // mu_w [-], >= 0, read for coulomb only
+};
+
+enum class SideKind {
+  wall,     // closed to every phase
+  open,     // top only: fluid passes at P_c = 0, gas flows in, grains do not pass
+  periodic  // joined to the opposite side
+};
+
+struct Side {
+  SideKind kind = SideKind::wall;
+  PhaseWall fluid;
+  PhaseWall solid;
+  Vec3 velocity{};  // tangential velocity of the wall [m/s]
+};
+
+enum SideIndex { left = 0, right = 1, bottom = 2, top = 3, front = 4, back = 5 };
+
+// --- materials ---------------------------------------------------------------------------------------
+
+struct Fluid {
+  double density = 0.0;    // rho_g, rho_l [kg/m3], > 0
+  double viscosity = 0.0;  // mu_g, mu_l [Pa s], >= 0
+};
+
+struct Solid {
+  double density = 0.0;      // rho_s [kg/m3], > 0
+  double diameter = 0.0;     // d_s [m], > 0
+  double restitution = 0.9;  // e0 [-], in [0, 1]
+  double friction = 0.0;     // eta_s = tan(theta_s) [-], >= 0
+};
+
+// Parameters of the enduring contact, eqs (13)-(17); the defaults are the paper's.
+struct Contact {
+  double stiffness = 1e8;             // K [Pa]
+  double exponent = 1.5;              // chi [-]
+  double dilatancy_factor = 0.28;     // a' [-]
+  double dilatancy_exponent = 0.58;   // delta [-]
+  double dense_solid_fraction = 0.60; // f_s0 of (15) [-]
+  double solid_fraction_min = 0.57;   // f_s,min, random loose packing [-]
+  double solid_fraction_max = 0.63;   // f_s,max [-]
+  double regularisation = 1e5;        // n of (17) [s]
+};
+
+// --- geometry ----------------------------------------------------------------------------------------
+
+struct Box {
+  Vec3 lower{};  // [m]
+  Vec3 upper{};  // [m]
+};
+
+struct Bed {
+  Box box;                      // where the grains are at the start; length = upper[0] - lower[0], height in y
+  double solid_fraction = 0.0;  // initial packing [-], in (0, f_s,max]
+};
+
+// A vertical plate at x = position that holds the column and rises at `speed` from t = 0.
+struct Gate {
+  double position = 0.0;  // [m]; the front face of the bed
+  double speed = 0.0;     // [m/s], > 0
+};
+
+// --- what is modelled --------------------------------------------------------------------------------
+
+enum class TemperatureModel { transported, algebraic, off };
+
+// Each switch removes one physical part; the ablation reports show what each is worth.
+struct Model {
+  bool drag = true;                    // eqs (8), (9)
+  bool les = true;                     // eq (10)
+  TemperatureModel granular_temperature = TemperatureModel::transported;  // eq (7)
+  bool pressure_work = true;           // -P_s^K div u_s in (7), see correction 2 of the model
+  bool dilatancy_pressure = true;      // P_s^EF, eq (14)
+  bool kinetic_viscosity = true;       // mu_s^K and zeta_s^K, eqs (20), (21)
+  bool contact_friction = true;        // tau_s^E, eq (17)
+  bool colour = true;                  // eq (25)
+};
+
+enum class SolidFlux { upwind, limited };      // first order (the paper), second order bounded
+enum class InterfaceScheme { cicsam, upwind };
+
+struct Numerics {
+  double cfl = 0.4;                     // convective Courant number of the step, in (0, 0.9]
+  double dt_max = 5e-3;                 // [s]
+  double dt_min = 1e-9;                 // a refused step that would be shorter ends the run [s]
+  SolidFlux solid_flux = SolidFlux::upwind;
+  InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
+  double volume_tolerance = 1e-6;       // largest volume error of a cell in one step, as a fraction of the cell
+  double linear_tolerance = 1e-3;       // residual reduction of one linear solve inside Newton
+  int newton_max = 30;
+};
+
+struct Grid3 {
+  std::array<int, 3> cells{1, 1, 1};
+  Vec3 spacing{};  // [m]
+};
+
+// --- times and output --------------------------------------------------------------------------------
+
+struct Times {
+  double end = 0.0;                    // [s]
+  double unit = 1.0;                   // seconds per unit of the case file's times: 1, or sqrt(h0 / g)
+  double hold = 0.0;                   // time behind the closed gate before t = 0 [s], >= 0
+  double series_interval = 0.0;        // [s], > 0
+  std::vector<double> field_times;     // [s], ascending, the end included
+  double checkpoint_interval = 0.0;    // wall-clock seconds between checkpoints; 0: only at the end and on failure
+};
+
+struct Scene {
+  std::string name;   // unique, equals the file's stem
+  std::string title;
+  std::filesystem::path file;
+  int dimensions = 2;  // 2 or 3
+  Vec3 tank{};         // inner size [m]; in 2D tank[2] is the depth the results are stated for
+  double gravity = 9.81;
+  Grid3 grid;
+  std::array<Side, 6> sides{};  // indexed by SideIndex
+  Fluid gas, liquid;
+  Solid solid;
+  Contact contact;
+  std::optional<Bed> bed;
+  std::vector<Box> liquid_boxes;  // where alpha = 1 at the start, pores of the bed included
+  std::optional<Gate> gate;
+  Model model;
+  Numerics numerics;
+  Times times;
+  std::string resolved;   // canonical text of the resolved case: what `granvof check` prints
+  std::string hash;       // of `resolved` without numerics, output and reference: same hash, same physics and geometry
+};
+
+}  // namespace granvof
