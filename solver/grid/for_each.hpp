@@ -1,0 +1,86 @@
+// Loops over the values of a box, rows in parallel, x innermost and vectorised.
+//
+// A body may write only what belongs to its own index (gather, never scatter). Threads start only where a
+// loop is long enough to pay for them; `threads` comes from the run, there is no global state.
+#pragma once
+
+#include <cstddef>
+
+#include "solver/grid/layout.hpp"
+
+namespace granvof {
+
+// Half-open index range of a box; the full box of a layout is {0,0,0} to n.
+struct Range {
+  std::array<int, 3> lower{0, 0, 0};
+  std::array<int, 3> upper{1, 1, 1};
+  static Range all(const Layout& l) { return {{0, 0, 0}, l.n}; }
+};
+
+inline constexpr int cells_that_pay_for_threads = 8000;  // measured: below it a second thread costs more
+
+// body(std::ptrdiff_t index) for every value in the range.
+template <typename Body>
+inline void for_each(const Layout& l, const Range& r, Body&& body) {
+  const int rows_y = r.upper[1] - r.lower[1];
+  const int rows_z = r.upper[2] - r.lower[2];
+  const int length = r.upper[0] - r.lower[0];
+  const int rows = rows_y * rows_z;
+  const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
+#pragma omp parallel for schedule(static) if (parallel)
+  for (int row = 0; row < rows; ++row) {
+    const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
+#pragma omp simd
+    for (int i = 0; i < length; ++i) body(start + i);
+  }
+}
+
+template <typename Body>
+inline void for_each(const Layout& l, Body&& body) {
+  for_each(l, Range::all(l), body);
+}
+
+// Sum over the range of body(index).
+template <typename Body>
+inline double sum_over(const Layout& l, const Range& r, Body&& body) {
+  const int rows_y = r.upper[1] - r.lower[1];
+  const int rows_z = r.upper[2] - r.lower[2];
+  const int length = r.upper[0] - r.lower[0];
+  const int rows = rows_y * rows_z;
+  const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
+  double total = 0.0;
+#pragma omp parallel for schedule(static) reduction(+ : total) if (parallel)
+  for (int row = 0; row < rows; ++row) {
+    const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
+    double line = 0.0;
+#pragma omp simd reduction(+ : line)
+    for (int i = 0; i < length; ++i) line += body(start + i);
+    total += line;
+  }
+  return total;
+}
+
+// Largest value over the range of body(index), at least `floor`; a NaN anywhere is returned as NaN.
+template <typename Body>
+inline double max_over(const Layout& l, const Range& r, double floor, Body&& body) {
+  double largest = floor;
+  bool finite = true;
+  for (int k = r.lower[2]; k < r.upper[2]; ++k) {
+    for (int j = r.lower[1]; j < r.upper[1]; ++j) {
+      const std::ptrdiff_t start = l.index(r.lower[0], j, k);
+      double line = floor;
+      bool ok = true;
+#pragma omp simd reduction(max : line) reduction(&& : ok)
+      for (int i = 0; i < r.upper[0] - r.lower[0]; ++i) {
+        const double v = body(start + i);
+        line = v > line ? v : line;
+        ok = ok && v == v;
+      }
+      largest = line > largest ? line : largest;
+      finite = finite && ok;
+    }
+  }
+  return finite ? largest : __builtin_nan("");
+}
+
+}  // namespace granvof

@@ -1,0 +1,41 @@
+// How a local box of values lies in memory: x fastest, with ghost layers around it.
+//
+// Grid cells, faces and the levels of multigrid all use this, so that one exchange serves them all.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace granvof {
+
+struct Layout {
+  std::array<int, 3> n{1, 1, 1};                    // values of the box, ghosts not counted
+  std::array<int, 3> ghost{0, 0, 0};                // ghost layers on each side of a direction
+  std::array<bool, 3> periodic{false, false, false};  // direction joined to itself
+  std::array<std::ptrdiff_t, 3> stride{1, 1, 1};    // distance of neighbours in memory
+  std::ptrdiff_t origin = 0;                        // index of (0, 0, 0)
+  std::size_t size = 1;                             // allocated values, ghosts counted
+
+  // A compact layout: `ghost` layers in every direction with more than one value or with periodic ends.
+  static Layout make(std::array<int, 3> n, std::array<int, 3> ghost, std::array<bool, 3> periodic) {
+    Layout l;
+    l.n = n;
+    l.ghost = ghost;
+    l.periodic = periodic;
+    std::ptrdiff_t s = 1;
+    for (int d = 0; d < 3; ++d) {
+      l.stride[d] = s;
+      l.origin += ghost[d] * s;
+      s *= n[d] + 2 * ghost[d];
+    }
+    l.size = static_cast<std::size_t>(s);
+    return l;
+  }
+
+  std::ptrdiff_t index(int i, int j, int k) const {
+    return origin + i * stride[0] + j * stride[1] + k * stride[2];
+  }
+  std::size_t count() const { return std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]); }
+};
+
+}  // namespace granvof
