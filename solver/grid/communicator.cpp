@@ -25,7 +25,11 @@ void wrap(const Layout& l, T* values) {
 
 }  // namespace
 
-void SerialCommunicator::exchange(const Layout& layout, double* values) const { wrap(layout, values); }
-void SerialCommunicator::exchange(const Layout& layout, float* values) const { wrap(layout, values); }
+void SerialCommunicator::exchange(const Layout& layout, double* values) const {
+  wrap(layout, values);
+}
+void SerialCommunicator::exchange(const Layout& layout, float* values) const {
+  wrap(layout, values);
+}
 
 }  // namespace granvof

@@ -1,0 +1,48 @@
+// Pressure of enduring contacts: elastic part (13) and the dense-flow pressure (15).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/scene/scene.hpp"
+
+namespace granvof::closures {
+
+struct PressureAndSlope {
+  double value;  // P [Pa]
+  double slope;  // dP / d f_s [Pa]
+};
+
+// P_s^ES [Pa], eq (13), with the leading f_s as printed. The argument of the sine is frozen beyond f_s,max,
+// where the printed form would fall again.
+inline PressureAndSlope elastic_pressure(double f_s, const Contact& c) {
+  const double excess = f_s - c.solid_fraction_min;
+  if (excess <= 0.0) return {0.0, 0.0};
+  const double width = c.solid_fraction_max - c.solid_fraction_min;
+  const double share = excess / width;
+  const double angle = (std::min(share, 1.0) - 0.5) * std::numbers::pi;
+  const double ramp = 1.0 + std::sin(angle);
+  const double ramp_slope = share < 1.0 ? std::cos(angle) * std::numbers::pi / width : 0.0;
+  const double power = std::pow(excess, c.exponent);
+  const double value = c.stiffness * f_s * power * ramp;
+  const double slope =
+      c.stiffness * (power * ramp + f_s * (c.exponent * power / excess * ramp + power * ramp_slope));
+  return {value, slope};
+}
+
+inline constexpr double dense_pressure_cap = 0.005;  // least f_s0 - f_s in (15), which is singular at f_s0
+
+// P_s^D [Pa], eq (15): 15 rho_s Theta (1 - e) (a' f_s f_s0 / (f_s0 - f_s))^(2/delta) (model correction 3).
+inline PressureAndSlope dense_pressure(double f_s, double theta, double e, double rho_s, const Contact& c) {
+  if (f_s <= 0.0 || theta <= 0.0) return {0.0, 0.0};
+  const double gap = std::max(c.dense_solid_fraction - f_s, dense_pressure_cap);
+  const bool capped = c.dense_solid_fraction - f_s <= dense_pressure_cap;
+  const double power = 2.0 / c.dilatancy_exponent;
+  const double bracket = c.dilatancy_factor * f_s * c.dense_solid_fraction / gap;
+  const double value = 15.0 * rho_s * theta * (1.0 - e) * std::pow(bracket, power);
+  const double log_slope = power * (1.0 / f_s + (capped ? 0.0 : 1.0 / gap));
+  return {value, value * log_slope};
+}
+
+}  // namespace granvof::closures

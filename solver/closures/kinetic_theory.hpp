@@ -1,0 +1,46 @@
+// Kinetic theory of the grains: pressure (11), viscosities (20), (21), conductivity (22), dissipation (23).
+//
+// All take f_s in [0, f_s,max], Theta >= 0 [m2/s2], e in [0, 1], the caller's g0 (eq (19)), and SI units.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace granvof::closures {
+
+// P_s^K [Pa], eq (11).
+inline double kinetic_pressure(double f_s, double theta, double e, double g0, double rho_s) {
+  return rho_s * f_s * theta * (1.0 + 2.0 * (1.0 + e) * f_s * g0);
+}
+
+// mu_s^K [Pa s], eq (20). The stress (16) uses f_s mu_s^K.
+inline double kinetic_viscosity(double f_s, double theta, double e, double g0, double rho_s, double d_s) {
+  return 0.8 * rho_s * d_s * f_s * g0 * (1.0 + e) * std::sqrt(theta) * std::numbers::inv_sqrtpi;
+}
+
+inline constexpr double bulk_to_shear_viscosity = 5.0 / 3.0;  // zeta_s^K / mu_s^K, eqs (20), (21)
+
+// zeta_s^K [Pa s], eq (21).
+inline double kinetic_bulk_viscosity(double f_s, double theta, double e, double g0, double rho_s,
+                                     double d_s) {
+  return bulk_to_shear_viscosity * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
+}
+
+// kappa_s^K [Pa s], eq (22); the flux uses f_s kappa_s^K (model correction 11).
+inline double conductivity(double f_s, double theta, double e, double g0, double rho_s, double d_s) {
+  return 2.5 * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
+}
+
+// gamma_s^K / Theta^(3/2) [kg/m4]: the collisional part of eq (23), which does not depend on div u_s.
+inline double collisional_dissipation_rate(double f_s, double e, double g0, double rho_s, double d_s) {
+  return 12.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * std::numbers::inv_sqrtpi / d_s;
+}
+
+// gamma_s^K [W/m3], eq (23).
+inline double dissipation(double f_s, double theta, double e, double g0, double rho_s, double d_s,
+                          double div_u_s) {
+  return collisional_dissipation_rate(f_s, e, g0, rho_s, d_s) * theta * std::sqrt(theta) -
+         3.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * theta * div_u_s;
+}
+
+}  // namespace granvof::closures

@@ -1,0 +1,48 @@
+// Total solid pressure P_s = P_s^K + P_s^ES + P_s^EF of a cell, eqs (11)-(15), as a function of f_s alone.
+//
+// Theta and e are those of the old level; the implicit step needs P_s and its slope at any trial f_s.
+#pragma once
+
+#include "solver/closures/contact_pressure.hpp"
+#include "solver/closures/kinetic_theory.hpp"
+#include "solver/closures/radial_distribution.hpp"
+
+namespace granvof::closures {
+
+inline constexpr double least_solid_pressure_slope =
+    1.0;  // [Pa]; keeps the implicit step regular without grains
+
+// f_s >= 0. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
+// parts together are max(P_s^K, P_s^D).
+inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                       bool dilatancy) {
+  PressureAndSlope p = elastic_pressure(f_s, c);
+  if (theta > 0.0 && f_s > 0.0) {
+    const double g0 = radial_distribution(f_s, c.solid_fraction_max);
+    const double g0_slope = radial_distribution_slope(f_s, c.solid_fraction_max);
+    PressureAndSlope flow{kinetic_pressure(f_s, theta, e, g0, rho_s),
+                          rho_s * theta * (1.0 + 2.0 * (1.0 + e) * f_s * (2.0 * g0 + f_s * g0_slope))};
+    if (dilatancy) {
+      const PressureAndSlope dense = dense_pressure(f_s, theta, e, rho_s, c);
+      if (dense.value > flow.value) flow = dense;
+    }
+    p.value += flow.value;
+    p.slope += flow.slope;
+  }
+  p.slope = std::max(p.slope, least_solid_pressure_slope);
+  return p;
+}
+
+// P_s^E = P_s^ES + P_s^EF [Pa], eqs (12)-(14): the pressure that carries friction.
+inline double enduring_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                bool dilatancy) {
+  double p = elastic_pressure(f_s, c).value;
+  if (dilatancy && theta > 0.0) {
+    const double g0 = radial_distribution(f_s, c.solid_fraction_max);
+    p += std::max(dense_pressure(f_s, theta, e, rho_s, c).value - kinetic_pressure(f_s, theta, e, g0, rho_s),
+                  0.0);
+  }
+  return p;
+}
+
+}  // namespace granvof::closures
