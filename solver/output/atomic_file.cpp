@@ -1,0 +1,99 @@
+#include "solver/output/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "solver/output/output_error.hpp"
+
+namespace granvof {
+
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+std::filesystem::path temporary(const std::filesystem::path& path) {
+  return std::filesystem::path(path).concat(".tmp");
+}
+
+}  // namespace
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this != &other) {
+    close();
+    fd_ = other.release();
+  }
+  return *this;
+}
+
+Descriptor::~Descriptor() { close(); }
+
+int Descriptor::release() {
+  const int fd = fd_;
+  fd_ = -1;
+  return fd;
+}
+
+void Descriptor::close() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+void write_all(const Descriptor& file, std::string_view content, const std::filesystem::path& path) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file.get(), content.data(), content.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      throw OutputError("write", path, reason(errno));
+    }
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void sync(const Descriptor& file, const std::filesystem::path& path) {
+  // EINVAL: a device without a disk behind it, such as a pipe; there is nothing to flush.
+  if (::fsync(file.get()) != 0 && errno != EINVAL) throw OutputError("write", path, reason(errno));
+}
+
+void write_beside(const std::filesystem::path& path, std::string_view content) {
+  const auto draft = temporary(path);
+  Descriptor file(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!file.valid()) throw OutputError("write", path, reason(errno));
+  try {
+    write_all(file, content, path);
+    sync(file, path);
+  } catch (...) {
+    file.close();
+    ::unlink(draft.c_str());
+    throw;
+  }
+}
+
+void rename_into_place(const std::filesystem::path& path) {
+  if (::rename(temporary(path).c_str(), path.c_str()) != 0) throw OutputError("write", path, reason(errno));
+  // The new name is safe against a power cut only once the directory is flushed; file systems that cannot are let off.
+  const auto parent = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const Descriptor directory(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (directory.valid()) ::fsync(directory.get());
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  write_beside(path, content);
+  rename_into_place(path);
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw OutputError("read", path, reason(errno));
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (file.bad()) throw OutputError("read", path, reason(errno));
+  return std::move(content).str();
+}
+
+}  // namespace granvof

@@ -1,0 +1,106 @@
+#include "solver/output/extract_bed.hpp"
+
+#include <algorithm>
+
+#include "solver/output/extract_motion.hpp"
+#include "solver/output/measures.hpp"
+
+namespace granvof::scalar {
+
+namespace {
+
+// Mean height of the solid in cells with f_s > threshold, weighted by f_s.
+Value centre_height(const CellFields& fields, double threshold) {
+  double weight = 0.0;
+  double moment = 0.0;
+  for (int k = 0; k < fields.cells[2]; ++k) {
+    for (int j = 0; j < fields.cells[1]; ++j) {
+      const double y = (j + 0.5) * fields.spacing[1];
+      for (int i = 0; i < fields.cells[0]; ++i) {
+        const double f = fields.f_s[cell_index(fields, i, j, k)];
+        if (f <= threshold) continue;
+        weight += f;
+        moment += f * y;
+      }
+    }
+  }
+  if (weight == 0.0) return std::nullopt;
+  return moment / weight;
+}
+
+}  // namespace
+
+Value p_base(const CellFields& fields, const Scene& scene) {
+  if (!scene.bed) return std::nullopt;
+  const auto share_x = share_under_bed(fields, scene, 0);
+  const auto share_z = share_under_bed(fields, scene, 2);
+  double weight = 0.0;
+  double sum = 0.0;
+  for (int k = 0; k < fields.cells[2]; ++k) {
+    for (int i = 0; i < fields.cells[0]; ++i) {
+      const double share = share_x[static_cast<std::size_t>(i)] * share_z[static_cast<std::size_t>(k)];
+      weight += share;
+      sum += share * fields.p_c[cell_index(fields, i, 0, k)];
+    }
+  }
+  if (weight == 0.0) return std::nullopt;
+  return sum / weight;
+}
+
+Value y_c(const CellFields& fields, const Scene& scene) { return centre_height(fields, dense_threshold(scene)); }
+
+Value bed_bottom(const CellFields& fields, const Scene& scene) {
+  return first_crossing(bed_profile_along_y(fields, scene), fields.spacing[1], dense_threshold(scene));
+}
+
+Value bed_top(const CellFields& fields, const Scene& scene) {
+  return last_crossing(bed_profile_along_y(fields, scene), fields.spacing[1], dense_threshold(scene));
+}
+
+Value bed_height(const CellFields& fields, const Scene& scene) {
+  const auto bottom = bed_bottom(fields, scene);
+  const auto top = bed_top(fields, scene);
+  if (!bottom || !top) return std::nullopt;
+  return *top - *bottom;
+}
+
+Value bed_height_equivalent(const CellFields& fields, const Scene& scene) {
+  double all = 0.0;
+  double dense = 0.0;
+  double rows = 0.0;
+  for (const double f : bed_profile_along_y(fields, scene)) {
+    all += f;
+    if (f < dense_threshold(scene)) continue;
+    dense += f;
+    rows += 1.0;
+  }
+  if (rows == 0.0) return std::nullopt;
+  return all / (dense / rows) * fields.spacing[1];
+}
+
+Value y_solid_mean(const CellFields& fields, const Scene&) { return centre_height(fields, 0.0); }
+
+Value solid_volume(const CellFields& fields, const Scene& scene) {
+  double sum = 0.0;
+  for (const double f : fields.f_s) sum += f;
+  return sum * cell_volume(fields, scene);
+}
+
+Value f_s_max(const CellFields& fields, const Scene&) {
+  return *std::max_element(fields.f_s.begin(), fields.f_s.end());
+}
+
+Value f_s_min(const CellFields& fields, const Scene&) {
+  return *std::min_element(fields.f_s.begin(), fields.f_s.end());
+}
+
+Value theta_max(const CellFields& fields, const Scene&) {
+  Value largest;
+  for (std::size_t c = 0; c < fields.f_s.size(); ++c) {
+    if (fields.f_s[c] < present_solid_fraction) continue;
+    largest = std::max(largest.value_or(fields.theta[c]), fields.theta[c]);
+  }
+  return largest;
+}
+
+}  // namespace granvof::scalar

@@ -1,0 +1,91 @@
+#include "solver/output/extract_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/output/measures.hpp"
+
+namespace granvof::scalar {
+
+namespace {
+
+using Velocity = std::array<std::vector<double>, 3>;
+
+double speed_squared(const Velocity& u, std::size_t c) {
+  double sum = 0.0;
+  for (const auto& component : u) sum += component.empty() ? 0.0 : component[c] * component[c];
+  return sum;
+}
+
+// Largest speed over the cells for which use(c) holds.
+template <class Use>
+Value largest_speed(const Velocity& u, std::size_t cells, Use use) {
+  Value largest;
+  for (std::size_t c = 0; c < cells; ++c) {
+    if (use(c)) largest = std::max(largest.value_or(0.0), speed_squared(u, c));
+  }
+  return largest ? Value(std::sqrt(*largest)) : std::nullopt;
+}
+
+double solid_share(const CellFields& f, std::size_t c) { return f.f_s[c]; }
+double liquid_share(const CellFields& f, std::size_t c) { return f.alpha[c] * (1.0 - f.f_s[c]); }
+double gas_share(const CellFields& f, std::size_t c) { return (1.0 - f.alpha[c]) * (1.0 - f.f_s[c]); }
+
+using Share = double (*)(const CellFields&, std::size_t);
+
+double kinetic_energy(const CellFields& fields, const Scene& scene, Share share, const Velocity& u, double density) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < fields.f_s.size(); ++c) sum += share(fields, c) * speed_squared(u, c);
+  return 0.5 * density * sum * cell_volume(fields, scene);
+}
+
+double potential_energy(const CellFields& fields, const Scene& scene, Share share, double density) {
+  const auto nx = static_cast<std::size_t>(fields.cells[0]);
+  const auto ny = static_cast<std::size_t>(fields.cells[1]);
+  double sum = 0.0;
+  for (std::size_t c = 0; c < fields.f_s.size(); ++c) {
+    sum += share(fields, c) * (static_cast<double>(c / nx % ny) + 0.5);
+  }
+  return density * scene.gravity * sum * fields.spacing[1] * cell_volume(fields, scene);
+}
+
+}  // namespace
+
+Value u_s_max(const CellFields& fields, const Scene&) {
+  return largest_speed(fields.u_s, fields.f_s.size(),
+                       [&](std::size_t c) { return fields.f_s[c] >= present_solid_fraction; });
+}
+
+Value u_s_dense_max(const CellFields& fields, const Scene& scene) {
+  const double threshold = dense_threshold(scene);
+  return largest_speed(fields.u_s, fields.f_s.size(), [&](std::size_t c) { return fields.f_s[c] >= threshold; });
+}
+
+Value u_c_max(const CellFields& fields, const Scene&) {
+  return largest_speed(fields.u_c, fields.f_s.size(), [](std::size_t) { return true; });
+}
+
+Value u_liquid_max(const CellFields& fields, const Scene&) {
+  return largest_speed(fields.u_c, fields.f_s.size(), [&](std::size_t c) { return liquid_share(fields, c) > 0.5; });
+}
+
+Value kinetic_energy_solid(const CellFields& fields, const Scene& scene) {
+  return kinetic_energy(fields, scene, solid_share, fields.u_s, scene.solid.density);
+}
+Value kinetic_energy_liquid(const CellFields& fields, const Scene& scene) {
+  return kinetic_energy(fields, scene, liquid_share, fields.u_c, scene.liquid.density);
+}
+Value kinetic_energy_gas(const CellFields& fields, const Scene& scene) {
+  return kinetic_energy(fields, scene, gas_share, fields.u_c, scene.gas.density);
+}
+Value potential_energy_solid(const CellFields& fields, const Scene& scene) {
+  return potential_energy(fields, scene, solid_share, scene.solid.density);
+}
+Value potential_energy_liquid(const CellFields& fields, const Scene& scene) {
+  return potential_energy(fields, scene, liquid_share, scene.liquid.density);
+}
+Value potential_energy_gas(const CellFields& fields, const Scene& scene) {
+  return potential_energy(fields, scene, gas_share, scene.gas.density);
+}
+
+}  // namespace granvof::scalar

@@ -1,0 +1,56 @@
+// fields.h5: one group per output time, and fields.xdmf that shows it to ParaView.
+//
+// While a run goes on each instant is a file of its own, fields/tNNNN.h5, and fields.h5 links to them: every file
+// is written whole and renamed, so that a run killed at any moment leaves readable output, at a cost that does not
+// grow with the number of instants. join() makes fields.h5 one file without links. Readers see no difference.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "solver/output/cell_fields.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace granvof {
+
+class FieldsFile {
+ public:
+  // Writes an empty fields.h5 and fields.xdmf into `directory`. Throws OutputError.
+  static FieldsFile create(const std::filesystem::path& directory, const Scene& scene);
+  // Goes on with what is there; instants later than `last_time` [s] are removed. Throws OutputError.
+  static FieldsFile resume(const std::filesystem::path& directory, const Scene& scene, double last_time);
+
+  // Adds an instant. Throws OutputError; std::invalid_argument if an array has not the size of the grid.
+  void append(const CellFields& fields);
+
+  // Joins all instants into one file. False, and nothing changed, where that was not possible (disk full).
+  bool join();
+
+ private:
+  FieldsFile(std::filesystem::path directory, const Scene& scene);
+  std::filesystem::path piece(std::size_t index) const;
+  void write_index() const;
+
+  struct Instant {
+    double time = 0.0;
+    bool has_solid_pressure = false;
+  };
+
+  std::filesystem::path directory_;
+  std::string scene_name_;
+  std::array<int, 3> cells_{};
+  Vec3 spacing_{};
+  std::vector<Instant> instants_;
+};
+
+// Output times [s] of a fields.h5, in order. Throws OutputError.
+std::vector<double> read_field_times(const std::filesystem::path& fields_h5);
+// Instant number `index`. Throws OutputError.
+CellFields read_fields(const std::filesystem::path& fields_h5, std::size_t index);
+
+// Throws std::invalid_argument naming the array whose size is not that of `fields.cells`.
+// `p_s` may be empty everywhere, component 2 of the velocities where there is one layer of cells.
+void check_sizes(const CellFields& fields);
+
+}  // namespace granvof

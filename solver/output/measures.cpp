@@ -1,0 +1,132 @@
+#include "solver/output/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "solver/output/fields_file.hpp"
+
+namespace granvof {
+
+namespace {
+
+void check_finite(const std::vector<double>& values, const char* name, const CellFields& fields) {
+  const auto bad = std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+  if (bad == values.end()) return;
+  const auto index = static_cast<std::size_t>(bad - values.begin());
+  const auto nx = static_cast<std::size_t>(fields.cells[0]);
+  const auto ny = static_cast<std::size_t>(fields.cells[1]);
+  throw std::domain_error(fmt::format("{} is {} in cell ({}, {}, {}) at t = {} s", name, *bad, index % nx,
+                                      index / nx % ny, index / (nx * ny), fields.time));
+}
+
+}  // namespace
+
+void check_fields(const CellFields& fields, const Scene& scene) {
+  check_sizes(fields);
+  if (fields.cells != scene.grid.cells) {
+    throw std::invalid_argument(fmt::format("fields of {} x {} x {} cells for a scene of {} x {} x {}",
+                                            fields.cells[0], fields.cells[1], fields.cells[2], scene.grid.cells[0],
+                                            scene.grid.cells[1], scene.grid.cells[2]));
+  }
+  check_finite(fields.f_s, "f_s", fields);
+  check_finite(fields.alpha, "alpha", fields);
+  check_finite(fields.p_c, "p_c", fields);
+  check_finite(fields.p_s, "p_s", fields);
+  check_finite(fields.theta, "theta", fields);
+  check_finite(fields.phi, "phi", fields);
+  for (const auto& component : fields.u_s) check_finite(component, "u_s", fields);
+  for (const auto& component : fields.u_c) check_finite(component, "u_c", fields);
+}
+
+double dense_threshold(const Scene& scene) { return 0.95 * scene.contact.solid_fraction_min; }
+
+double cell_volume(const CellFields& fields, const Scene& scene) {
+  const double depth = scene.dimensions == 2 ? scene.tank[2] : fields.spacing[2];
+  return fields.spacing[0] * fields.spacing[1] * depth;
+}
+
+std::vector<double> solid_volume_along_x(const CellFields& fields, const Scene& scene) {
+  const auto [nx, ny, nz] = fields.cells;
+  std::vector<double> volume(static_cast<std::size_t>(nx), 0.0);
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      const double* row = &fields.f_s[cell_index(fields, 0, j, k)];
+      for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += row[i];
+    }
+  }
+  const double cell = cell_volume(fields, scene);
+  for (double& v : volume) v *= cell;
+  return volume;
+}
+
+std::vector<double> bed_height_profile(const CellFields& fields, const Scene& scene) {
+  auto height = solid_volume_along_x(fields, scene);
+  const double base = cell_volume(fields, scene) / fields.spacing[1] * fields.cells[2];
+  for (double& h : height) h /= base * scene.contact.solid_fraction_min;
+  return height;
+}
+
+std::vector<double> share_under_bed(const CellFields& fields, const Scene& scene, int direction) {
+  const auto d = static_cast<std::size_t>(direction);
+  const auto n = static_cast<std::size_t>(fields.cells[d]);
+  std::vector<double> share(n, 0.0);
+  if (!scene.bed) return share;
+  if (d == 2 && scene.dimensions == 2) return {1.0};
+  const double h = fields.spacing[d];
+  for (std::size_t c = 0; c < n; ++c) {
+    const double lower = std::max(static_cast<double>(c) * h, scene.bed->box.lower[d]);
+    const double upper = std::min(static_cast<double>(c + 1) * h, scene.bed->box.upper[d]);
+    // The bound keeps a share of rounding error, where the bed ends on a cell face, from counting as a column.
+    if (upper - lower > 1e-9 * h) share[c] = (upper - lower) / h;
+  }
+  return share;
+}
+
+std::vector<double> bed_profile_along_y(const CellFields& fields, const Scene& scene) {
+  if (!scene.bed) return {};
+  const auto [nx, ny, nz] = fields.cells;
+  const auto share_x = share_under_bed(fields, scene, 0);
+  const auto share_z = share_under_bed(fields, scene, 2);
+  std::vector<double> profile(static_cast<std::size_t>(ny), 0.0);
+  double weight = 0.0;
+  for (const double z : share_z) {
+    for (const double x : share_x) weight += x * z;
+  }
+  if (weight == 0.0) return {};
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
+        profile[static_cast<std::size_t>(j)] += share_x[static_cast<std::size_t>(i)] *
+                                                share_z[static_cast<std::size_t>(k)] *
+                                                fields.f_s[cell_index(fields, i, j, k)];
+      }
+    }
+  }
+  for (double& f : profile) f /= weight;
+  return profile;
+}
+
+Value last_crossing(const std::vector<double>& values, double spacing, double threshold) {
+  for (std::size_t c = values.size(); c-- > 0;) {
+    if (values[c] < threshold) continue;
+    const double centre = (static_cast<double>(c) + 0.5) * spacing;
+    if (c + 1 == values.size()) return static_cast<double>(values.size()) * spacing;
+    return centre + spacing * (values[c] - threshold) / (values[c] - values[c + 1]);
+  }
+  return std::nullopt;
+}
+
+Value first_crossing(const std::vector<double>& values, double spacing, double threshold) {
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    if (values[c] < threshold) continue;
+    if (c == 0) return 0.0;
+    const double centre = (static_cast<double>(c) + 0.5) * spacing;
+    return centre - spacing * (values[c] - threshold) / (values[c] - values[c - 1]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace granvof

@@ -1,0 +1,74 @@
+// run.json: what ran, on what, what it cost, and how it ended.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/scene/scene.hpp"
+
+namespace granvof {
+
+// Version of the layout of a run directory; raised by a change that an older reader would misread.
+inline constexpr int output_contract_version = 1;
+
+enum class ExitState { running, finished, failed, stopped };
+
+// What is known before the first step.
+struct RunStart {
+  std::string program;  // "granvof" or "demvof"
+  std::string command;  // the command line
+  int ranks = 1;
+  int threads = 1;  // of each rank
+};
+
+// What is known while it goes on, over all resumed parts of the run.
+struct RunProgress {
+  std::int64_t steps = 0;
+  std::int64_t refused_steps = 0;
+  std::int64_t cells = 0;
+  double simulated_time = 0.0;  // [s]
+  double wall_seconds = 0.0;    // of the time loop
+  double core_seconds = 0.0;    // CPU time of the time loop, all threads and ranks
+  std::map<std::string, double> cost;  // part of the time step -> wall seconds
+  double solid_volume_error = 0.0;     // largest relative change of the solid volume [-]
+  double liquid_volume_error = 0.0;    // [-]
+  double solid_fraction_max = 0.0;     // largest f_s that ever occurred [-]
+  std::map<std::string, double> monitors;  // further numbers of the program (iterations, energies, ...)
+};
+
+struct RunExit {
+  ExitState state = ExitState::running;
+  std::string reason;  // empty unless failed or stopped
+};
+
+struct Resumption {
+  std::string date;   // ISO 8601, UTC
+  double time = 0.0;  // simulated time from which the run went on [s]
+};
+
+struct RunRecord {
+  RunStart start;
+  std::string start_date;  // ISO 8601, UTC
+  std::vector<Resumption> resumptions;
+};
+
+// The text of run.json. Numbers that are not finite become null.
+std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
+                            const RunExit& exit);
+
+// What resuming and overwriting need of an existing run.json; nullopt if the file is not a granvof run.json.
+struct ExistingRun {
+  RunRecord record;
+  std::string program;
+  std::string case_hash;
+};
+std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json);
+
+// Now, as ISO 8601 in UTC, to the second.
+std::string iso_date_now();
+
+}  // namespace granvof

@@ -1,0 +1,165 @@
+#include "solver/output/series_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <system_error>
+
+#include "solver/output/output_error.hpp"
+
+namespace granvof {
+
+namespace {
+
+std::string header_line(std::span<const Column> columns) {
+  std::string line;
+  for (const auto& column : columns) {
+    if (!line.empty()) line += ',';
+    line += column_header(column);
+  }
+  return line + '\n';
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const auto comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+Column parse_header(std::string_view field) {
+  const auto open = field.rfind(" [");
+  if (open == std::string_view::npos || !field.ends_with(']')) return {std::string(field), "", ""};
+  return {std::string(field.substr(0, open)), std::string(field.substr(open + 2, field.size() - open - 3)), ""};
+}
+
+// Complete lines only: what follows the last newline is a torn row.
+std::vector<std::string_view> complete_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (auto end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string column_header(const Column& column) { return column.name + " [" + column.unit + "]"; }
+
+SeriesFile::SeriesFile(std::filesystem::path path, std::size_t columns)
+    : path_(std::move(path)),
+      columns_(columns),
+      file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)) {
+  if (!file_.valid()) throw OutputError("write", path_, std::generic_category().message(errno));
+}
+
+SeriesFile SeriesFile::create(const std::filesystem::path& path, std::span<const Column> columns) {
+  write_file_atomically(path, header_line(columns));
+  return {path, columns.size()};
+}
+
+SeriesFile SeriesFile::resume(const std::filesystem::path& path, std::span<const Column> columns,
+                              double last_time) {
+  const std::string header = header_line(columns);
+  const std::string text = read_file(path);
+  if (!text.starts_with(header)) {
+    throw OutputError("resume", path, "its columns are not those of this program; it was written by another version");
+  }
+  std::string kept = header;
+  for (const auto line : complete_lines(std::string_view(text).substr(header.size()))) {
+    const auto time = parse_number(split(line).front());
+    if (!time) throw OutputError("resume", path, fmt::format("row without a time: '{}'", line));
+    if (*time > last_time) break;
+    kept.append(line).append("\n");
+  }
+  write_file_atomically(path, kept);
+  return {path, columns.size()};
+}
+
+void SeriesFile::append(std::span<const Value> row) {
+  if (row.size() != columns_) {
+    throw std::invalid_argument(fmt::format("a row of {} values for {} columns", row.size(), columns_));
+  }
+  std::string line;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    if (c > 0) line += ',';
+    if (!row[c]) continue;
+    if (!std::isfinite(*row[c])) {
+      throw std::invalid_argument(fmt::format("column {} of a row of {} is {}", c + 1, path_.string(), *row[c]));
+    }
+    fmt::format_to(std::back_inserter(line), "{}", *row[c]);  // shortest text that reads back as the same number
+  }
+  line += '\n';
+  const off_t before = ::lseek(file_.get(), 0, SEEK_END);
+  try {
+    write_all(file_, line, path_);
+  } catch (const OutputError&) {
+    // The row may be half there; if cutting fails too, readers still drop a line without an end.
+    [[maybe_unused]] const int cut = ::ftruncate(file_.get(), before);
+    throw;
+  }
+}
+
+void SeriesFile::flush_to_disk() { sync(file_, path_); }
+
+bool Series::has(std::string_view name) const {
+  return std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+}
+
+std::vector<Value> Series::column(std::string_view name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  if (found == columns.end()) throw std::out_of_range(fmt::format("the series has no column '{}'", name));
+  const auto c = static_cast<std::size_t>(found - columns.begin());
+  std::vector<Value> values;
+  values.reserve(rows.size());
+  for (const auto& row : rows) values.push_back(row[c]);
+  return values;
+}
+
+Series read_series(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  const auto lines = complete_lines(text);
+  if (lines.empty()) throw OutputError("read", path, "it has no header line");
+  Series series;
+  for (const auto field : split(lines.front())) series.columns.push_back(parse_header(field));
+  for (std::size_t l = 1; l < lines.size(); ++l) {
+    const auto fields = split(lines[l]);
+    if (fields.size() != series.columns.size()) {
+      throw OutputError("read", path, fmt::format("line {} has {} fields, the header has {}", l + 1, fields.size(),
+                                                  series.columns.size()));
+    }
+    auto& row = series.rows.emplace_back();
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+      if (fields[c].empty()) {
+        row.emplace_back();
+        continue;
+      }
+      const auto value = parse_number(fields[c]);
+      if (!value) {
+        throw OutputError("read", path, fmt::format("line {}, {}: '{}' is not a finite number", l + 1,
+                                                    series.columns[c].name, fields[c]));
+      }
+      row.emplace_back(*value);
+    }
+  }
+  return series;
+}
+
+}  // namespace granvof
