@@ -4,6 +4,14 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 
+if(GRANVOF_CCACHE)
+  find_program(CCACHE_PROGRAM ccache)
+  if(CCACHE_PROGRAM)
+    set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  endif()
+endif()
+
 add_library(granvof_options INTERFACE)
 target_compile_options(granvof_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -11,12 +19,20 @@ target_compile_options(granvof_options INTERFACE
   -fno-math-errno -fno-trapping-math)
 if(GRANVOF_NATIVE)
   target_compile_options(granvof_options INTERFACE -march=native)
+  if(CCACHE_PROGRAM)
+    # ccache takes `native` as a word: name the instruction set, so that no other machine's objects are reused.
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -Q --help=target
+      OUTPUT_VARIABLE native_target ERROR_QUIET)
+    string(SHA1 native_target "${native_target}")
+    target_compile_definitions(granvof_options INTERFACE GRANVOF_NATIVE_TARGET=0x${native_target})
+  endif()
 endif()
 if(GRANVOF_WERROR)
   target_compile_options(granvof_options INTERFACE -Werror)
 endif()
 if(GRANVOF_SANITIZE)
-  target_compile_options(granvof_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_compile_options(granvof_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(granvof_options INTERFACE -fsanitize=address,undefined)
 endif()
 target_include_directories(granvof_options INTERFACE ${CMAKE_SOURCE_DIR})

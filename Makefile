@@ -1,0 +1,69 @@
+# A thin front for CMake's presets and the scripts in ci/, compare/ and reference/. `make help` lists the targets.
+#
+# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (verify says `not run` for what needs them)
+# VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference)
+# OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
+.DEFAULT_GOAL := help
+SHELL := /bin/bash
+# Debian's interpreter: another python3 on PATH has not got Debian's packages.
+PYTHON := /usr/bin/python3
+JOBS ?= $(shell nproc)
+OUT ?= out
+REFERENCE ?= on
+export JOBS
+
+RELEASE := build/release
+PYTEST_DIRS = $(wildcard ci/tests compare/tests reference/tests)
+SOURCES = git ls-files -z '*.cpp' '*.hpp'
+
+# $(call need,file): a target whose part of the project does not exist yet says so and fails.
+need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
+
+.PHONY: help setup build verify test reference plots nightly bench format tidy sanitize
+
+help:  ## list the targets
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
+	@sed -n 's/^# \([A-Z]*=.*\)/  \1/p' $(MAKEFILE_LIST)
+
+setup:  ## install what is missing (Debian packages; root or sudo)
+	@ci/setup
+
+build: setup  ## build everything but the reference
+	ci/build release
+
+verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
+	$(call need,compare/verify)
+	ci/build --reference=$(REFERENCE) release
+	compare/verify --build-dir $(RELEASE) --out $(OUT) $(if $(VERIFY),--frequency $(VERIFY))
+
+test: setup  ## unit and verification tests (ctest), then the Python tests
+	ci/build release
+	ctest --preset release --label-regex '^(unit|verification)$$' --parallel $(JOBS)
+	$(PYTHON) -m pytest -q -p no:cacheprovider --import-mode=importlib $(PYTEST_DIRS)
+
+reference: setup  ## run and record the DEM-VOF reference where missing or stale (SCENE=s1: one scene)
+	$(call need,reference/record)
+	ci/build --reference=required release
+	reference/record --build-dir $(RELEASE) $(SCENE)
+
+plots: setup  ## plots and report from existing results, without running anything
+	$(call need,compare/verify)
+	compare/verify --plots-only --build-dir $(RELEASE) --out $(OUT)
+
+nightly: setup  ## all stages of the nightly run, with history and trends
+	$(call need,ci/nightly)
+	ci/nightly
+
+bench: setup  ## performance of the parts
+	ci/build release
+	ci/bench $(RELEASE)
+
+format:  ## clang-format all C++ sources in place
+	$(SOURCES) | xargs -0 -r clang-format -i
+
+tidy: setup  ## clang-tidy over all C++ sources
+	ci/tidy
+
+sanitize: setup  ## unit tests under the address and undefined-behaviour sanitizers
+	ci/build sanitize
+	ctest --preset sanitize --label-regex '^unit$$' --parallel $(JOBS)
