@@ -1,0 +1,166 @@
+// Preconditioned conjugate gradients in double precision over one to three components, each with its own
+// layout.
+//
+// The operator and the preconditioner are given as functions, so that a tensor operator over the velocity
+// components of faces takes the same solver as a scalar one over cells.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "solver/grid/communicator.hpp"
+#include "solver/grid/for_each.hpp"
+#include "solver/grid/layout.hpp"
+#include "solver/linear/buffer.hpp"
+#include "solver/linear/rows.hpp"
+#include "solver/linear/tolerance.hpp"
+
+namespace granvof::linear {
+
+using Components = std::array<double*, 3>;  // nullptr beyond the number of components
+using ConstComponents = std::array<const double*, 3>;
+
+class ConjugateGradient {
+ public:
+  // One layout per component (1 to 3), all alive as values here. `communicator` must outlive this.
+  ConjugateGradient(const std::vector<Layout>& layouts, const Communicator& communicator)
+      : layouts_(layouts), communicator_(communicator) {
+    assert(!layouts.empty() && layouts.size() <= 3);
+    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+      for (auto* set : {&r_, &z_, &p_, &q_}) {
+        buffers_.emplace_back(layouts_[c].size);
+        (*set)[c] = buffers_.back().data();
+      }
+    }
+  }
+
+  // Solves A x = rhs for a symmetric positive (semi-)definite A; x holds the guess.
+  //   apply(const Components& p, const Components& q): q = A p on the boxes. Ghosts of p are 0 unless apply
+  //   fills
+  //     them (it may write them: that is where exchange belongs). p and q never alias.
+  //   precondition(const ConstComponents& r, const Components& z): z = M r on the boxes, M symmetric and
+  //   positive
+  //     definite, for example one Multigrid::apply per component.
+  // Ghosts of x and rhs are neither read nor written.
+  template <typename Apply, typename Precondition>
+  Report solve(Apply&& apply, Precondition&& precondition, const ConstComponents& rhs, const Components& x,
+               const Tolerance& tolerance) {
+    Report report;
+    report.initial = report.final = true_residual(apply, rhs, x);
+    if (!std::isfinite(report.initial)) return report;
+    const double target = std::max(tolerance.absolute, tolerance.relative * report.initial);
+    double restart_norm = report.initial;  // the true residual at the last (re)start
+    bool fresh = true;
+    double rz = 0.0;
+    double norm = report.initial;
+    for (;;) {
+      if (norm <= target || !std::isfinite(norm) || report.iterations >= tolerance.max_iterations) {
+        if (report.iterations > 0) report.final = true_residual(apply, rhs, x);
+        report.converged = report.final <= target;
+        // Rounding makes the recurrence drift from the true residual; go on from the latter while that helps.
+        const bool useful = std::isfinite(report.final) && report.final < 0.5 * restart_norm;
+        if (report.converged || report.iterations >= tolerance.max_iterations || !useful) return report;
+        restart_norm = report.final;
+        fresh = true;
+      }
+      precondition(as_const(r_), z_);
+      ++report.iterations;
+      const double previous = rz;
+      rz = dot(r_, z_);
+      combine(fresh ? 0.0 : rz / previous);  // p = z + beta p
+      fresh = false;
+      apply(p_, q_);
+      const double pq = dot(p_, q_);
+      if (!(pq > 0.0) || !std::isfinite(pq) || !std::isfinite(rz)) {  // breakdown
+        report.final = true_residual(apply, rhs, x);
+        report.converged = report.final <= target;
+        return report;
+      }
+      norm = advance(rz / pq, x);
+    }
+  }
+
+ private:
+  static ConstComponents as_const(const Components& c) { return {c[0], c[1], c[2]}; }
+
+  // r = rhs - A x; its largest value. Uses p and q as scratch.
+  template <typename Apply>
+  double true_residual(Apply& apply, const ConstComponents& rhs, const Components& x) {
+    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+      double* p = p_[c];
+      const double* from = x[c];
+      for_each(layouts_[c], [=](std::ptrdiff_t i) { p[i] = from[i]; });
+    }
+    apply(p_, q_);
+    double largest = 0.0;
+    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+      const double *q = q_[c], *b = rhs[c];
+      double* r = r_[c];
+      largest =
+          std::max(largest, rows_max(layouts_[c], [=](std::ptrdiff_t i) { return r[i] = b[i] - q[i]; }));
+    }
+    return communicator_.max(largest);
+  }
+
+  double dot(const Components& a, const Components& b) const {
+    double total = 0.0;
+    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+      const double *u = a[c], *v = b[c];
+      total += sum_over(layouts_[c], Range::all(layouts_[c]), [=](std::ptrdiff_t i) { return u[i] * v[i]; });
+    }
+    return communicator_.sum(total);
+  }
+
+  void combine(double beta) {
+    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+      double* p = p_[c];
+      const double* z = z_[c];
+      if (beta == 0.0)
+        for_each(layouts_[c], [=](std::ptrdiff_t i) { p[i] = z[i]; });
+      else
+        for_each(layouts_[c], [=](std::ptrdiff_t i) { p[i] = z[i] + beta * p[i]; });
+    }
+  }
+
+  // x += alpha p, r -= alpha q; the largest value of r.
+  double advance(double alpha, const Components& x) {
+    double largest = 0.0;
+    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+      const double *p = p_[c], *q = q_[c];
+      double *to = x[c], *r = r_[c];
+      largest = std::max(largest, rows_max(layouts_[c], [=](std::ptrdiff_t i) {
+                           to[i] += alpha * p[i];
+                           return r[i] -= alpha * q[i];
+                         }));
+    }
+    return communicator_.max(largest);
+  }
+
+  // Largest |body(index)| over the box; infinity if one is not a number.
+  template <typename Body>
+  static double rows_max(const Layout& l, Body&& body) {
+    return max_rows(l, [&](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k);
+      const int n = l.n[0];
+      double line = 0.0, poison = 0.0;  // 0 * v is 0 unless v is not finite
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+      for (int i = 0; i < n; ++i) {
+        const double v = std::fabs(body(row + i));
+        line = v > line ? v : line;
+        poison += 0.0 * v;
+      }
+      return line + poison;
+    });
+  }
+
+  std::vector<Layout> layouts_;
+  const Communicator& communicator_;
+  std::vector<Buffer<double>> buffers_;
+  Components r_{}, z_{}, p_{}, q_{};
+};
+
+}  // namespace granvof::linear

@@ -1,0 +1,397 @@
+#include "solver/linear/coupled_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/linear/face_operator.hpp"
+#include "solver/linear/flush_denormals.hpp"
+#include "solver/linear/rows.hpp"
+
+namespace granvof::linear {
+namespace {
+
+constexpr int pressure_smoothing = 3, granular_smoothing = 2;
+
+Buffer<double> doubles(const Layout& l) {
+  return Buffer<double>(l.size);
+}
+
+// Rows of max(0, k22 - k21 k12 / k11) and m22.
+class SchurComplement final : public Coefficients {
+ public:
+  SchurComplement(const Layout& l, const CoupledSystem& s) : layout_(l), s_(s) {}
+  bool coupled(int d) const override { return s_.k22[d] != nullptr; }
+  void faces(int d, int j, int k, float* out) const override {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+    const double *a = s_.k11[d] + row, *b = s_.k12[d] + row, *c = s_.k21[d] + row, *e = s_.k22[d] + row;
+    const int n = layout_.n[0];
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      const double divisor = a[i] > 0.0 ? a[i] : 1.0;
+      const double shared = a[i] > 0.0 ? c[i] * b[i] : 0.0;
+      const double left = e[i] - shared / divisor;
+      out[i] = static_cast<float>(left > 0.0 ? left : 0.0);
+    }
+  }
+  void masses(int j, int k, float* out) const override {
+    const double* row = s_.m22 + layout_.index(0, j, k);
+    const int n = layout_.n[0];
+#pragma omp simd
+    for (int i = 0; i < n; ++i) out[i] = static_cast<float>(row[i]);
+  }
+
+ private:
+  const Layout& layout_;
+  const CoupledSystem& s_;
+};
+
+// Largest |values|; not finite if one of them is not.
+double largest(int n, const double* values) {
+  double line = 0.0, poison = 0.0;
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+  for (int i = 0; i < n; ++i) {
+    line = std::max(line, std::fabs(values[i]));
+    poison += 0.0 * values[i];
+  }
+  return line + poison;
+}
+
+}  // namespace
+
+bool CoupledSolver::Norms::finite() const {
+  return std::isfinite(first) && std::isfinite(second);
+}
+
+CoupledSolver::CoupledSolver(const Layout& layout, const Communicator& communicator,
+                             const std::array<double, 3>& spacing)
+    : user_(layout),
+      communicator_(communicator),
+      pressure_(layout, communicator, spacing),
+      granular_(layout, communicator, spacing),
+      layout_(pressure_.layout()),
+      zeros_(static_cast<std::size_t>(padded(layout.n[0]))),
+      theta_(layout_.size) {
+  for (auto* pair : {&r_, &shadow_, &p_, &v_, &t_})
+    for (auto& b : *pair) b = doubles(layout_);
+  for (auto* pair : {&y_, &w_})
+    for (auto& b : *pair) b = Buffer<float>(layout_.size);
+}
+
+Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2, const Tolerance& tolerance) {
+  for (int d = 0; d < 3; ++d) coupled_[d] = system.k11[d] != nullptr && user_.n[d] > 1;
+  const Norms initial = true_residual(system, x1, x2);
+  Report report;
+  report.initial = report.final = initial.larger();
+  if (!initial.finite()) return report;
+  const Norms target{std::max(tolerance.absolute, tolerance.relative * initial.first),
+                     std::max(tolerance.absolute, tolerance.relative * initial.second)};
+  report.converged = initial.below(target);
+  if (report.converged || tolerance.max_iterations <= 0) return report;
+  // One measure of how far both rows are from their targets, to judge restarts by.
+  const auto excess = [&](const Norms& n) {
+    const double tiny = 1e-300;
+    return std::max(n.first / std::max(target.first, tiny), n.second / std::max(target.second, tiny));
+  };
+
+  set(system);
+  double start = excess(initial);
+  int useless_restarts = 0;
+  bool fresh = true;
+  double rho = 0.0, alpha = 0.0, omega = 0.0;
+  for (;;) {
+    bool stop = false;  // converged, broken down or out of iterations: look at the true residual
+    if (fresh) {
+      for (int c = 0; c < 2; ++c) std::copy_n(r_[c].data(), layout_.size, shadow_[c].data());
+      rho = direction(0.0, 0.0);
+      fresh = false;
+    } else {
+      const double previous = rho;
+      rho = 0.0;
+      for (int c = 0; c < 2; ++c) {
+        const double *a = shadow_[c].data(), *b = r_[c].data();
+        rho += sum_rows(layout_, [&](int j, int k) {
+          const std::ptrdiff_t row = layout_.index(0, j, k);
+          const int n = user_.n[0];
+          double line = 0.0;
+#pragma omp simd reduction(+ : line)
+          for (int i = 0; i < n; ++i) line += a[row + i] * b[row + i];
+          return line;
+        });
+      }
+      rho = communicator_.sum(rho);
+      direction((rho / previous) * (alpha / omega), omega);
+    }
+    if (rho == 0.0 || !std::isfinite(rho)) stop = true;
+
+    if (!stop) {
+      precondition(system, p_, y_);
+      ++report.iterations;
+      const double shadow_v = communicator_.sum(multiply(system, y_, v_, shadow_).with);
+      alpha = rho / shadow_v;
+      if (shadow_v == 0.0 || !std::isfinite(alpha)) stop = true;
+    }
+    if (!stop) {
+      const Norms half = subtract(alpha, v_);
+      if (half.below(target) || !half.finite() || report.iterations >= tolerance.max_iterations) {
+        advance(alpha, 0.0, x1, x2);
+        stop = true;
+      }
+    }
+    if (!stop) {
+      precondition(system, r_, w_);
+      ++report.iterations;
+      Products p = multiply(system, w_, t_, r_);
+      p.with = communicator_.sum(p.with);
+      p.self = communicator_.sum(p.self);
+      omega = p.self > 0.0 ? p.with / p.self : 0.0;
+      if (!std::isfinite(omega)) omega = 0.0;
+      advance(alpha, omega, x1, x2);
+      const Norms norms = subtract(omega, t_);
+      stop = omega == 0.0 || norms.below(target) || !norms.finite() ||
+             report.iterations >= tolerance.max_iterations;
+    }
+    if (!stop) continue;
+
+    const Norms now = true_residual(system, x1, x2);
+    report.final = now.larger();
+    report.converged = now.below(target);
+    // Rounding or a breakdown: restart from the true residual, but not for ever without progress.
+    const double left = excess(now);
+    useless_restarts = left < 0.5 * start ? 0 : useless_restarts + 1;
+    if (report.converged || report.iterations >= tolerance.max_iterations || !now.finite() ||
+        useless_restarts > 1)
+      return report;
+    start = left;
+    fresh = true;
+  }
+}
+
+void CoupledSolver::set(const CoupledSystem& s) {
+  pressure_.set(Faces{s.k11}, s.m11);
+  granular_.set(SchurComplement(user_, s));
+  const int n = user_.n[0];
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t here = layout_.index(0, j, k);
+    const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
+    const rows::FaceRow b = rows::face_row(s.k12, user_, j, k, zeros_.data());
+    float* theta = theta_.data() + here;
+    const auto total = [](const rows::FaceRow& f, double x_upper, int i) {
+      double sum = 0.0;
+      if (f.x) sum += f.x[i] + x_upper;
+      if (f.y) sum += f.y[i] + f.y_upper[i];
+      if (f.z) sum += f.z[i] + f.z_upper[i];
+      return sum;
+    };
+    const auto store = [=](int i, double above, double below) {
+      theta[i] = below > 0.0 ? static_cast<float>(above / below) : 0.0F;
+    };
+    if (coupled_[0]) {
+#pragma omp simd
+      for (int i = 0; i < n - 1; ++i) store(i, total(b, b.x[i + 1], i), total(a, a.x[i + 1], i));
+      store(n - 1, total(b, b.x_end, n - 1), total(a, a.x_end, n - 1));
+    } else {
+      for (int i = 0; i < n; ++i) store(i, total(b, 0.0, i), total(a, 0.0, i));
+    }
+  });
+}
+
+// One row of the matrix times (v1, v2); each block row apart, as fewer streams suit the registers better.
+template <typename T>
+void CoupledSolver::product_row(const CoupledSystem& s, const T* v1, const T* v2, int j, int k, double* out1,
+                                double* out2) {
+  const std::ptrdiff_t here = layout_.index(0, j, k), given = user_.index(0, j, k);
+  const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
+  const int n = user_.n[0];
+  const auto block_row = [&](const auto& first, const auto& second, const double* mass, const T* own,
+                             double* out) {
+    const rows::FaceRow a = rows::face_row(first, user_, j, k, zeros_.data());
+    const rows::FaceRow b = rows::face_row(second, user_, j, k, zeros_.data());
+    const T *u1 = v1 + here, *u2 = v2 + here;
+    const T* u = own + here;
+    const double* m = mass + given;
+    double* to = out + here;
+    with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+      rows::face_sums<X, Y, Z>(n, a, u1, b, u2, sy, sz,
+                               [=](int i, double sum) { to[i] = m[i] * u[i] + sum; });
+    });
+  };
+  block_row(s.k11, s.k12, s.m11, v1, out1);
+  block_row(s.k21, s.k22, s.m22, v2, out2);
+}
+
+CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const double* x1,
+                                                  const double* x2) {
+  const std::array<const double*, 2> x{x1, x2}, rhs{s.rhs1, s.rhs2};
+  const int n = user_.n[0];
+  for (int c = 0; c < 2; ++c) {
+    double* to = t_[c].data();
+    for_rows(layout_,
+             [&](int j, int k) { std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k)); });
+    if (any_periodic(layout_)) communicator_.exchange(layout_, to);
+  }
+  for_rows(layout_, [&](int j, int k) {
+    product_row(s, t_[0].data(), t_[1].data(), j, k, r_[0].data(), r_[1].data());
+  });
+  Norms norms;
+  for (int c = 0; c < 2; ++c) {
+    const double norm = max_rows(layout_, [&](int j, int k) {
+      double* r = r_[c].data() + layout_.index(0, j, k);
+      const double* b = rhs[c] + user_.index(0, j, k);
+#pragma omp simd
+      for (int i = 0; i < n; ++i) r[i] = b[i] - r[i];
+      return largest(n, r);
+    });
+    (c == 0 ? norms.first : norms.second) = communicator_.max(norm);
+    // t is reused as a product later: nothing but the box may stay in it
+    if (any_periodic(layout_)) std::fill_n(t_[c].data(), layout_.size, 0.0);
+  }
+  return norms;
+}
+
+void CoupledSolver::precondition(const CoupledSystem& s, const Pair& from, FloatPair& to) {
+  const int n = user_.n[0], width = padded(n);
+  const float *scale1 = pressure_.scale(), *scale2 = granular_.scale();
+  float *rhs1 = pressure_.residual(), *rhs2 = granular_.residual();
+  const double *r1 = from[0].data(), *r2 = from[1].data();
+  float *y1 = to[0].data(), *y2 = to[1].data();
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+#pragma omp simd
+    for (std::ptrdiff_t i = row; i < row + n; ++i) rhs1[i] = scale1[i] * static_cast<float>(r1[i]);
+  });
+  const float* p = pressure_.cycle(pressure_smoothing);
+  const FlushDenormals flush;
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+#pragma omp simd
+    for (std::ptrdiff_t i = row; i < row + width; ++i) y1[i] = scale1[i] * p[i];
+  });
+  if (any_periodic(layout_)) communicator_.exchange(layout_, y1);
+  with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+    for_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      const rows::FaceRow a = rows::face_row(s.k21, user_, j, k, zeros_.data());
+      const double* r = r2 + row;
+      const float* scale = scale2 + row;
+      float* out = rhs2 + row;
+      rows::face_sums<X, Y, Z>(n, a, y1 + row, layout_.stride[1], layout_.stride[2], [=](int i, double sum) {
+        out[i] = scale[i] * static_cast<float>(r[i] - sum);
+      });
+    });
+  });
+  const float* g = granular_.cycle(granular_smoothing);
+  const float* theta = theta_.data();
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+#pragma omp simd
+    for (std::ptrdiff_t i = row; i < row + width; ++i) {
+      const float v = scale2[i] * g[i];
+      y2[i] = v;
+      y1[i] -= theta[i] * v;
+    }
+  });
+}
+
+// out = A v and its products, of this process.
+CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPair& v, Pair& out,
+                                                const Pair& with) {
+  if (any_periodic(layout_))
+    for (auto& component : v) communicator_.exchange(layout_, component.data());
+  const int n = user_.n[0];
+  Products total;
+  const auto row_products = [&](int j, int k) {
+    product_row(s, v[0].data(), v[1].data(), j, k, out[0].data(), out[1].data());
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+    double a = 0.0, b = 0.0;
+    for (int c = 0; c < 2; ++c) {
+      const double *o = out[c].data() + row, *w = with[c].data() + row;
+#pragma omp simd reduction(+ : a, b)
+      for (int i = 0; i < n; ++i) {
+        a += o[i] * w[i];
+        b += o[i] * o[i];
+      }
+    }
+    return Products{a, b};
+  };
+  const int ny = layout_.n[1], count = ny * layout_.n[2];
+  double a = 0.0, b = 0.0;
+#pragma omp parallel for schedule(static) reduction(+ : a, b) if (worth_threads(layout_))
+  for (int row = 0; row < count; ++row) {
+    const Products line = row_products(row % ny, row / ny);
+    a += line.with;
+    b += line.self;
+  }
+  total = {a, b};
+  return total;
+}
+
+// r -= factor what; the largest values of r.
+CoupledSolver::Norms CoupledSolver::subtract(double factor, const Pair& what) {
+  Norms norms;
+  const int n = user_.n[0];
+  for (int c = 0; c < 2; ++c) {
+    const double norm = max_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      double* r = r_[c].data() + row;
+      const double* w = what[c].data() + row;
+      double line = 0.0, poison = 0.0;
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+      for (int i = 0; i < n; ++i) {
+        r[i] -= factor * w[i];
+        line = std::max(line, std::fabs(r[i]));
+        poison += 0.0 * r[i];
+      }
+      return line + poison;
+    });
+    (c == 0 ? norms.first : norms.second) = communicator_.max(norm);
+  }
+  return norms;
+}
+
+// x += alpha y + omega w
+void CoupledSolver::advance(double alpha, double omega, double* x1, double* x2) {
+  const int n = user_.n[0];
+  for (int c = 0; c < 2; ++c) {
+    double* x = c == 0 ? x1 : x2;
+    for_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      double* to = x + user_.index(0, j, k);
+      const float *y = y_[c].data() + row, *w = w_[c].data() + row;
+      if (omega == 0.0) {
+#pragma omp simd
+        for (int i = 0; i < n; ++i) to[i] += alpha * y[i];
+      } else {
+#pragma omp simd
+        for (int i = 0; i < n; ++i) to[i] += alpha * y[i] + omega * w[i];
+      }
+    });
+  }
+}
+
+// p = r + beta (p - omega v); returns r . r, which is rho at a start.
+double CoupledSolver::direction(double beta, double omega) {
+  const int n = user_.n[0];
+  double total = 0.0;
+  for (int c = 0; c < 2; ++c) {
+    total += sum_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      double* p = p_[c].data() + row;
+      const double *r = r_[c].data() + row, *v = v_[c].data() + row;
+      double line = 0.0;
+      if (beta == 0.0) {
+#pragma omp simd reduction(+ : line)
+        for (int i = 0; i < n; ++i) {
+          p[i] = r[i];
+          line += r[i] * r[i];
+        }
+      } else {
+#pragma omp simd
+        for (int i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
+      }
+      return line;
+    });
+  }
+  return communicator_.sum(total);
+}
+
+}  // namespace granvof::linear

@@ -1,0 +1,77 @@
+// The 2x2 system of fluid and granular pressure: BiCGSTAB in double precision around two scalar V-cycles.
+//
+// Preconditioner (block lower, then upper elimination of the face blocks K = [k11 k12; k21 k22]):
+//   P: V-cycle of faces k11 and mass m11; S: V-cycle of the face-wise Schur complement max(0, k22 - k21 k12 /
+//   k11) and mass m22; theta = sum k12 / sum k11 per cell. y1 = P r1;  y2 = S (r2 - K21 y1);  y1 -= theta y2.
+#pragma once
+
+#include <array>
+
+#include "solver/grid/communicator.hpp"
+#include "solver/grid/layout.hpp"
+#include "solver/linear/buffer.hpp"
+#include "solver/linear/multigrid.hpp"
+#include "solver/linear/tolerance.hpp"
+
+namespace granvof::linear {
+
+// Per cell: m11 x1 + sum over faces of [k11 (x1 - x1_neighbour) + k12 (x2 - x2_neighbour)] = rhs1
+//           m22 x2 + sum over faces of [k21 (x1 - x1_neighbour) + k22 (x2 - x2_neighbour)] = rhs2
+// Face arrays as in Faces; the four blocks couple the same directions. k11, k22, m11, m22 >= 0, and
+// k21 k12 <= k11 k22 on every face.
+struct CoupledSystem {
+  std::array<const double*, 3> k11{}, k12{}, k21{}, k22{};
+  const double* m11 = nullptr;
+  const double* m22 = nullptr;
+  const double* rhs1 = nullptr;
+  const double* rhs2 = nullptr;
+};
+
+class CoupledSolver {
+ public:
+  // Systems whose arrays all have `layout`. `communicator` must outlive this; `spacing` as in Multigrid.
+  CoupledSolver(const Layout& layout, const Communicator& communicator,
+                const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
+
+  // x1 and x2 are the guess on entry. Converged when each row's residual is below max(absolute, relative
+  // times its own initial residual); the report holds the larger of the two rows. With m11 = 0 everywhere x1
+  // is determined up to a constant and rhs1 must sum to 0. Ghosts of all arrays are neither read nor written.
+  Report solve(const CoupledSystem& system, double* x1, double* x2, const Tolerance& tolerance);
+
+ private:
+  struct Norms {
+    double first = 0.0, second = 0.0;
+    bool below(const Norms& target) const { return first <= target.first && second <= target.second; }
+    double larger() const { return first > second ? first : second; }
+    bool finite() const;
+  };
+  // Scalar products of one product with the matrix: with the given pair, and with itself.
+  struct Products {
+    double with = 0.0, self = 0.0;
+  };
+  using Pair = std::array<Buffer<double>, 2>;
+  using FloatPair = std::array<Buffer<float>, 2>;
+
+  void set(const CoupledSystem& system);
+  Norms true_residual(const CoupledSystem& system, const double* x1, const double* x2);
+  void precondition(const CoupledSystem& system, const Pair& from, FloatPair& to);
+  template <typename T>
+  void product_row(const CoupledSystem& system, const T* v1, const T* v2, int j, int k, double* out1,
+                   double* out2);
+  Products multiply(const CoupledSystem& system, FloatPair& v, Pair& out, const Pair& with);
+  Norms subtract(double factor, const Pair& what);
+  void advance(double alpha, double omega, double* x1, double* x2);
+  double direction(double beta, double omega);
+
+  Layout user_;
+  const Communicator& communicator_;
+  Multigrid pressure_, granular_;
+  Layout layout_;  // padded, of everything below
+  std::array<bool, 3> coupled_{};
+  Buffer<double> zeros_;
+  Buffer<float> theta_;
+  Pair r_, shadow_, p_, v_, t_;
+  FloatPair y_, w_;  // preconditioned p and r
+};
+
+}  // namespace granvof::linear

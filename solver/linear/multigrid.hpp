@@ -1,0 +1,95 @@
+// One multigrid V-cycle in single precision: the preconditioner of every solver of this directory.
+//
+// A x = mass x + sum over faces of a (x - x_neighbour). Geometric, matrix-free: coarse cells are pairs of
+// cells in each coarsened direction, masses are summed, a coarse face is the sum of its fine faces divided by
+// the growth of the distance it spans (a half), residuals are summed, corrections injected. Arithmetic coarse
+// faces keep the iteration count flat at a contrast of 1e10; harmonic ones do not.
+//
+// Every level is stored scaled by its diagonal D, as D^-1/2 A D^-1/2: a sweep then reads neither diagonal nor
+// mass, only the scaled faces. Smoother: Chebyshev-Jacobi on the eigenvalues [0.5, 2] of D^-1 A, which suits
+// any such operator (its largest eigenvalue is at most 2).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/grid/communicator.hpp"
+#include "solver/grid/layout.hpp"
+#include "solver/linear/buffer.hpp"
+#include "solver/linear/faces.hpp"
+
+namespace granvof::linear {
+
+// Where a hierarchy takes its finest coefficients from, one row along x at a time: n[0] values.
+class Coefficients {
+ public:
+  virtual ~Coefficients() = default;
+  virtual bool coupled(int direction) const = 0;
+  virtual void faces(int direction, int j, int k, float* out) const = 0;
+  virtual void masses(int j, int k, float* out) const = 0;
+};
+
+class Multigrid {
+ public:
+  static constexpr int max_smoothing = 8;
+
+  // `communicator` must outlive this. `spacing` (any unit): a direction is coarsened only while its cells are
+  // less than about twice as long as the shortest ones, since weakly coupled directions need no coarsening.
+  Multigrid(const Layout& layout, const Communicator& communicator,
+            const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
+
+  // Takes new coefficients. Faces and masses >= 0. No allocation unless other directions become coupled than
+  // in the last call (at first: all with more than one cell).
+  void set(const Faces& faces, const double* mass);
+  void set(const Coefficients& coefficients);
+
+  // z = V-cycle of r from a zero guess with `smoothing` (1...8) sweeps before and after; symmetric and
+  // positive. Both in the layout given at construction. Rows without mass and faces: z = r, and no effect on
+  // others.
+  void apply(const float* r, float* z, int smoothing);
+  void apply(const double* r, double* z, int smoothing);
+
+  // The same on the scaled finest level, without copies, for the solvers here: put r * scale() into
+  // residual() (box only), then z = scale() * (what cycle returns). All in the padded layout(); padding is 0.
+  const Layout& layout() const { return levels_.front().layout; }
+  const float* scale() const { return levels_.front().scale.data(); }
+  float* residual() { return levels_.front().rhs.data(); }
+  // The answer stays valid until the next call. `dot`, if given, receives r . z of this process.
+  const float* cycle(int smoothing, double* dot = nullptr);
+
+  int level_count() const { return static_cast<int>(levels_.size()); }
+  const Communicator& communicator() const { return communicator_; }
+
+ private:
+  struct Level {
+    Layout layout;
+    std::array<bool, 3> coupled{};      // directions with more than one cell
+    std::array<bool, 3> coarsened{};    // on the way to the next level
+    std::array<Buffer<float>, 3> face;  // first as given, then scaled
+    Buffer<float> mass, scale, root;  // root = sqrt(D), scale = 1 / sqrt(D); both 0 in rows without diagonal
+    Buffer<float> weight;             // of injection and sum: root / root of the coarse cell
+    Buffer<float> rhs;
+    std::array<Buffer<float>, 2> x;
+  };
+  struct Sweep {  // x_new = x + momentum (x - x_old) + step (rhs - A x)
+    float momentum = 0.0F, step = 0.0F;
+  };
+
+  void build(const std::array<bool, 3>& coupled);
+  void scale_level(Level& level);
+  void coarsen(const Level& fine, Level& coarse) const;
+  void weigh(Level& fine, const Level& coarse) const;
+  void exchange(const Layout& l, float* values) const;
+  float* descend(std::size_t depth, int smoothing, double* dot);
+  void smooth(const Level& l, const float* x, const float* old, float old_factor, float* out, Sweep s) const;
+  void restrict_residual(const Level& fine, const float* x, Level& coarse) const;
+  void inject(const Level& fine, const Level& coarse, const float* e, float* x) const;
+
+  Layout user_;
+  const Communicator& communicator_;
+  std::array<double, 3> spacing_;
+  std::array<Sweep, max_smoothing> sweeps_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace granvof::linear

@@ -1,0 +1,45 @@
+// Conjugate gradients in double precision, preconditioned by one multigrid V-cycle in single precision.
+#pragma once
+
+#include <array>
+
+#include "solver/grid/communicator.hpp"
+#include "solver/grid/layout.hpp"
+#include "solver/linear/buffer.hpp"
+#include "solver/linear/faces.hpp"
+#include "solver/linear/multigrid.hpp"
+#include "solver/linear/tolerance.hpp"
+
+namespace granvof::linear {
+
+class ScalarSolver {
+ public:
+  // Systems whose arrays all have `layout`. `communicator` must outlive this; `spacing` as in Multigrid.
+  ScalarSolver(const Layout& layout, const Communicator& communicator,
+               const std::array<double, 3>& spacing = {1.0, 1.0, 1.0}, int smoothing = 2);
+
+  // Solves mass x + sum over faces of a (x - x_neighbour) = rhs; x is the guess on entry. With mass 0
+  // everywhere and no open end the matrix is singular: rhs must then sum to 0, and x is one of the solutions.
+  // Ghosts of all arrays are neither read nor written.
+  Report solve(const Faces& faces, const double* mass, const double* rhs, double* x,
+               const Tolerance& tolerance);
+
+ private:
+  double true_residual(const Faces& faces, const double* mass, const double* rhs, const double* x);
+  double multiply(const Faces& faces, const double* mass);
+  void combine(const float* z, double beta);
+  double advance(double alpha, double* x);
+  void scale_residual();
+
+  Layout user_;
+  const Communicator& communicator_;
+  int smoothing_;
+  Multigrid multigrid_;
+  Layout layout_;  // padded, of everything below; that of the finest level
+  std::array<bool, 3> coupled_{};
+  Buffer<double> zeros_;  // coefficients of the faces above the last row
+  Buffer<double> r_, q_, guess_;
+  Buffer<float> p_;
+};
+
+}  // namespace granvof::linear
