@@ -1,12 +1,12 @@
 #include "solver/output/atomic_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <fstream>
 #include <sstream>
 #include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "solver/output/output_error.hpp"
 
@@ -14,7 +14,9 @@ namespace granvof {
 
 namespace {
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
 
 std::filesystem::path temporary(const std::filesystem::path& path) {
   return std::filesystem::path(path).concat(".tmp");
@@ -30,7 +32,9 @@ Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
   return *this;
 }
 
-Descriptor::~Descriptor() { close(); }
+Descriptor::~Descriptor() {
+  close();
+}
 
 int Descriptor::release() {
   const int fd = fd_;
@@ -75,7 +79,8 @@ void write_beside(const std::filesystem::path& path, std::string_view content) {
 
 void rename_into_place(const std::filesystem::path& path) {
   if (::rename(temporary(path).c_str(), path.c_str()) != 0) throw OutputError("write", path, reason(errno));
-  // The new name is safe against a power cut only once the directory is flushed; file systems that cannot are let off.
+  // The new name is safe against a power cut only once the directory is flushed; file systems that cannot are
+  // let off.
   const auto parent = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const Descriptor directory(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.valid()) ::fsync(directory.get());

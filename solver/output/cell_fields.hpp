@@ -10,16 +10,17 @@
 namespace granvof {
 
 struct CellFields {
-  double time = 0.0;                    // [s]
-  std::array<int, 3> cells{1, 1, 1};    // nx, ny, nz
-  std::array<double, 3> spacing{};      // [m]
-  // All arrays are in C order (z, y, x): index = (k * ny + j) * nx + i; velocities hold one array a component.
-  std::vector<double> f_s;    // solid fraction [-]
-  std::vector<double> alpha;  // liquid share of the continuous phase [-]
-  std::vector<double> p_c;    // fluid pressure [Pa]
-  std::vector<double> p_s;    // solid pressure [Pa]; empty where a program has none
-  std::vector<double> theta;  // granular temperature [m2/s2]
-  std::vector<double> phi;    // colour of the solid [-]
+  double time = 0.0;                  // [s]
+  std::array<int, 3> cells{1, 1, 1};  // nx, ny, nz
+  std::array<double, 3> spacing{};    // [m]
+  // All arrays are in C order (z, y, x): index = (k * ny + j) * nx + i; velocities hold one array a
+  // component.
+  std::vector<double> f_s;                 // solid fraction [-]
+  std::vector<double> alpha;               // liquid share of the continuous phase [-]
+  std::vector<double> p_c;                 // fluid pressure [Pa]
+  std::vector<double> p_s;                 // solid pressure [Pa]; empty where a program has none
+  std::vector<double> theta;               // granular temperature [m2/s2]
+  std::vector<double> phi;                 // colour of the solid [-]
   std::array<std::vector<double>, 3> u_s;  // solid velocity [m/s]; component 2 empty in 2D
   std::array<std::vector<double>, 3> u_c;  // velocity of the continuous phase [m/s]
 };

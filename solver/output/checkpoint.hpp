@@ -38,7 +38,8 @@ struct Checkpoint {
 // Replaces `path` atomically; on OutputError the previous checkpoint stays.
 void write_checkpoint(const std::filesystem::path& path, const Scene& scene, const CheckpointView& state);
 
-// Throws OutputError if the file is missing, damaged, of another format, or of a case with another hash or grid.
+// Throws OutputError if the file is missing, damaged, of another format, or of a case with another hash or
+// grid.
 Checkpoint read_checkpoint(const std::filesystem::path& path, const Scene& scene);
 
 }  // namespace granvof

@@ -47,7 +47,9 @@ Value p_base(const CellFields& fields, const Scene& scene) {
   return sum / weight;
 }
 
-Value y_c(const CellFields& fields, const Scene& scene) { return centre_height(fields, dense_threshold(scene)); }
+Value y_c(const CellFields& fields, const Scene& scene) {
+  return centre_height(fields, dense_threshold(scene));
+}
 
 Value bed_bottom(const CellFields& fields, const Scene& scene) {
   return first_crossing(bed_profile_along_y(fields, scene), fields.spacing[1], dense_threshold(scene));
@@ -78,7 +80,9 @@ Value bed_height_equivalent(const CellFields& fields, const Scene& scene) {
   return all / (dense / rows) * fields.spacing[1];
 }
 
-Value y_solid_mean(const CellFields& fields, const Scene&) { return centre_height(fields, 0.0); }
+Value y_solid_mean(const CellFields& fields, const Scene&) {
+  return centre_height(fields, 0.0);
+}
 
 Value solid_volume(const CellFields& fields, const Scene& scene) {
   double sum = 0.0;

@@ -1,7 +1,8 @@
 // The bed: its centre, extent and load on the floor, and the amount of solid.
 //
-// Immersion depth of a floating bed: h = H/2 + (y_i - y_c), with y upward. (The paper prints H/2 + (y_c - y_i), which
-// would make a bed that sinks deeper less immersed.) It is formed from the averages of these columns, not here.
+// Immersion depth of a floating bed: h = H/2 + (y_i - y_c), with y upward. (The paper prints H/2 + (y_c -
+// y_i), which would make a bed that sinks deeper less immersed.) It is formed from the averages of these
+// columns, not here.
 #pragma once
 
 #include "solver/output/cell_fields.hpp"
@@ -13,7 +14,8 @@ namespace granvof::scalar {
 // Mean of P_c in the lowest row of cells, at their centres (not extrapolated to the floor), under the bed's
 // initial base [Pa].
 Value p_base(const CellFields& fields, const Scene& scene);
-// Eq (27): mean height of the cells with f_s > 0.95 f_s,min, weighted by f_s [m]. None until a cell is that dense.
+// Eq (27): mean height of the cells with f_s > 0.95 f_s,min, weighted by f_s [m]. None until a cell is that
+// dense.
 Value y_c(const CellFields& fields, const Scene& scene);
 // Lower edge of the dense bed [m]: where the profile of f_s over the bed's original columns first reaches
 // 0.95 f_s,min, linear between cell centres; 0 if the lowest row is dense.
@@ -22,8 +24,8 @@ Value bed_bottom(const CellFields& fields, const Scene& scene);
 Value bed_top(const CellFields& fields, const Scene& scene);
 // H = bed_top - bed_bottom [m]. At a sharp edge each bound lies up to half a cell inside the bed.
 Value bed_height(const CellFields& fields, const Scene& scene);
-// Height the profile would have if all of it were as dense as its dense rows on average [m]; free of the bias of
-// bed_height at sharp edges. None without a dense row.
+// Height the profile would have if all of it were as dense as its dense rows on average [m]; free of the bias
+// of bed_height at sharp edges. None without a dense row.
 Value bed_height_equivalent(const CellFields& fields, const Scene& scene);
 // Centre of mass of all solid [m].
 Value y_solid_mean(const CellFields& fields, const Scene& scene);

@@ -14,7 +14,9 @@ namespace {
 constexpr double dilute_threshold = 0.30;
 constexpr double quantile = 0.995;
 
-Value larger(Value a, Value b) { return a && b ? std::max(*a, *b) : (a ? a : b); }
+Value larger(Value a, Value b) {
+  return a && b ? std::max(*a, *b) : (a ? a : b);
+}
 
 // Largest x with f_s >= threshold in the layer z = k.
 Value front_of_layer(const CellFields& fields, int k, double threshold) {
@@ -35,7 +37,9 @@ Value front(const CellFields& fields, double threshold) {
 
 }  // namespace
 
-Value front_dense(const CellFields& fields, const Scene& scene) { return front(fields, dense_threshold(scene)); }
+Value front_dense(const CellFields& fields, const Scene& scene) {
+  return front(fields, dense_threshold(scene));
+}
 
 Value front_dense_mean(const CellFields& fields, const Scene& scene) {
   double sum = 0.0;
@@ -50,7 +54,9 @@ Value front_dense_mean(const CellFields& fields, const Scene& scene) {
   return sum / count;
 }
 
-Value front_dilute(const CellFields& fields, const Scene&) { return front(fields, dilute_threshold); }
+Value front_dilute(const CellFields& fields, const Scene&) {
+  return front(fields, dilute_threshold);
+}
 
 Value front_quantile(const CellFields& fields, const Scene& scene) {
   const auto volume = solid_volume_along_x(fields, scene);

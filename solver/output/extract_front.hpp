@@ -17,8 +17,9 @@ Value front_dilute(const CellFields& fields, const Scene& scene);
 Value front_quantile(const CellFields& fields, const Scene& scene);
 // Largest value of the bed height profile h(x) [m].
 Value deposit_height(const CellFields& fields, const Scene& scene);
-// Angle of the deposit's face towards +x [deg]: least-squares line through h(x) from the last cell at or above 80 % of
-// the largest height down to 20 % of it. None where fewer than three cells lie between (a vertical face).
+// Angle of the deposit's face towards +x [deg]: least-squares line through h(x) from the last cell at or
+// above 80 % of the largest height down to 20 % of it. None where fewer than three cells lie between (a
+// vertical face).
 Value slope(const CellFields& fields, const Scene& scene);
 
 }  // namespace granvof::scalar

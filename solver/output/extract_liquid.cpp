@@ -66,7 +66,9 @@ Value liquid_front(const CellFields& fields, const Scene&) {
   return front;
 }
 
-Value liquid_height_left(const CellFields& fields, const Scene&) { return column_height(fields, 0); }
+Value liquid_height_left(const CellFields& fields, const Scene&) {
+  return column_height(fields, 0);
+}
 
 Value liquid_height_right(const CellFields& fields, const Scene&) {
   return column_height(fields, fields.cells[0] - 1);

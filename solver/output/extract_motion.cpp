@@ -27,13 +27,20 @@ Value largest_speed(const Velocity& u, std::size_t cells, Use use) {
   return largest ? Value(std::sqrt(*largest)) : std::nullopt;
 }
 
-double solid_share(const CellFields& f, std::size_t c) { return f.f_s[c]; }
-double liquid_share(const CellFields& f, std::size_t c) { return f.alpha[c] * (1.0 - f.f_s[c]); }
-double gas_share(const CellFields& f, std::size_t c) { return (1.0 - f.alpha[c]) * (1.0 - f.f_s[c]); }
+double solid_share(const CellFields& f, std::size_t c) {
+  return f.f_s[c];
+}
+double liquid_share(const CellFields& f, std::size_t c) {
+  return f.alpha[c] * (1.0 - f.f_s[c]);
+}
+double gas_share(const CellFields& f, std::size_t c) {
+  return (1.0 - f.alpha[c]) * (1.0 - f.f_s[c]);
+}
 
 using Share = double (*)(const CellFields&, std::size_t);
 
-double kinetic_energy(const CellFields& fields, const Scene& scene, Share share, const Velocity& u, double density) {
+double kinetic_energy(const CellFields& fields, const Scene& scene, Share share, const Velocity& u,
+                      double density) {
   double sum = 0.0;
   for (std::size_t c = 0; c < fields.f_s.size(); ++c) sum += share(fields, c) * speed_squared(u, c);
   return 0.5 * density * sum * cell_volume(fields, scene);
@@ -58,7 +65,8 @@ Value u_s_max(const CellFields& fields, const Scene&) {
 
 Value u_s_dense_max(const CellFields& fields, const Scene& scene) {
   const double threshold = dense_threshold(scene);
-  return largest_speed(fields.u_s, fields.f_s.size(), [&](std::size_t c) { return fields.f_s[c] >= threshold; });
+  return largest_speed(fields.u_s, fields.f_s.size(),
+                       [&](std::size_t c) { return fields.f_s[c] >= threshold; });
 }
 
 Value u_c_max(const CellFields& fields, const Scene&) {
@@ -66,7 +74,8 @@ Value u_c_max(const CellFields& fields, const Scene&) {
 }
 
 Value u_liquid_max(const CellFields& fields, const Scene&) {
-  return largest_speed(fields.u_c, fields.f_s.size(), [&](std::size_t c) { return liquid_share(fields, c) > 0.5; });
+  return largest_speed(fields.u_c, fields.f_s.size(),
+                       [&](std::size_t c) { return liquid_share(fields, c) > 0.5; });
 }
 
 Value kinetic_energy_solid(const CellFields& fields, const Scene& scene) {

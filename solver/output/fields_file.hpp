@@ -1,10 +1,13 @@
 // fields.h5: one group per output time, and fields.xdmf that shows it to ParaView.
 //
-// While a run goes on each instant is a file of its own, fields/tNNNN.h5, and fields.h5 links to them: every file
-// is written whole and renamed, so that a run killed at any moment leaves readable output, at a cost that does not
-// grow with the number of instants. join() makes fields.h5 one file without links. Readers see no difference.
+// While a run goes on each instant is a file of its own, fields/tNNNN.h5, and fields.h5 links to them: every
+// file is written whole and renamed, so that a run killed at any moment leaves readable output, at a cost
+// that does not grow with the number of instants. join() makes fields.h5 one file without links. Readers see
+// no difference.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +17,7 @@
 
 namespace granvof {
 
+// scene.grid is the grid of the fields; the reference puts its own there.
 class FieldsFile {
  public:
   // Writes an empty fields.h5 and fields.xdmf into `directory`. Throws OutputError.
@@ -31,6 +35,8 @@ class FieldsFile {
   FieldsFile(std::filesystem::path directory, const Scene& scene);
   std::filesystem::path piece(std::size_t index) const;
   void write_index() const;
+  void write_file_attributes(std::int64_t file) const;
+  std::string xdmf() const;
 
   struct Instant {
     double time = 0.0;

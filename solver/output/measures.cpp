@@ -1,10 +1,10 @@
 #include "solver/output/measures.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "solver/output/fields_file.hpp"
 
@@ -26,10 +26,12 @@ void check_finite(const std::vector<double>& values, const char* name, const Cel
 
 void check_fields(const CellFields& fields, const Scene& scene) {
   check_sizes(fields);
-  if (fields.cells != scene.grid.cells) {
-    throw std::invalid_argument(fmt::format("fields of {} x {} x {} cells for a scene of {} x {} x {}",
-                                            fields.cells[0], fields.cells[1], fields.cells[2], scene.grid.cells[0],
-                                            scene.grid.cells[1], scene.grid.cells[2]));
+  for (std::size_t d = 0; d < static_cast<std::size_t>(scene.dimensions); ++d) {
+    const double length = fields.cells[d] * fields.spacing[d];
+    if (std::abs(length - scene.tank[d]) > 1e-6 * scene.tank[d]) {
+      throw std::invalid_argument(fmt::format("the fields are {} m long in direction {}, the tank is {} m",
+                                              length, d, scene.tank[d]));
+    }
   }
   check_finite(fields.f_s, "f_s", fields);
   check_finite(fields.alpha, "alpha", fields);
@@ -41,11 +43,13 @@ void check_fields(const CellFields& fields, const Scene& scene) {
   for (const auto& component : fields.u_c) check_finite(component, "u_c", fields);
 }
 
-double dense_threshold(const Scene& scene) { return 0.95 * scene.contact.solid_fraction_min; }
+double dense_threshold(const Scene& scene) {
+  return 0.95 * scene.contact.solid_fraction_min;
+}
 
 double cell_volume(const CellFields& fields, const Scene& scene) {
-  const double depth = scene.dimensions == 2 ? scene.tank[2] : fields.spacing[2];
-  return fields.spacing[0] * fields.spacing[1] * depth;
+  const double thickness = scene.dimensions == 2 ? scene.tank[2] / fields.cells[2] : fields.spacing[2];
+  return fields.spacing[0] * fields.spacing[1] * thickness;
 }
 
 std::vector<double> solid_volume_along_x(const CellFields& fields, const Scene& scene) {
@@ -74,12 +78,13 @@ std::vector<double> share_under_bed(const CellFields& fields, const Scene& scene
   const auto n = static_cast<std::size_t>(fields.cells[d]);
   std::vector<double> share(n, 0.0);
   if (!scene.bed) return share;
-  if (d == 2 && scene.dimensions == 2) return {1.0};
+  if (d == 2 && scene.dimensions == 2) return std::vector<double>(n, 1.0);
   const double h = fields.spacing[d];
   for (std::size_t c = 0; c < n; ++c) {
     const double lower = std::max(static_cast<double>(c) * h, scene.bed->box.lower[d]);
     const double upper = std::min(static_cast<double>(c + 1) * h, scene.bed->box.upper[d]);
-    // The bound keeps a share of rounding error, where the bed ends on a cell face, from counting as a column.
+    // The bound keeps a share of rounding error, where the bed ends on a cell face, from counting as a
+    // column.
     if (upper - lower > 1e-9 * h) share[c] = (upper - lower) / h;
   }
   return share;

@@ -19,18 +19,19 @@ void check_fields(const CellFields& fields, const Scene& scene);
 // 0.95 f_s,min, the edge of a dense bed [-].
 double dense_threshold(const Scene& scene);
 
-// Volume of a cell [m3]; in 2D the depth is the tank's.
+// Volume of a cell [m3]. In 2D all layers of cells together (one in the solver, a slice of several in the
+// reference) stand for the tank's depth, so that volumes and energies of both programs compare.
 double cell_volume(const CellFields& fields, const Scene& scene);
 
 // Solid volume of each column of cells x = const [m3].
 std::vector<double> solid_volume_along_x(const CellFields& fields, const Scene& scene);
 
-// Bed height profile h(x) = integral of f_s dy / f_s,min, averaged over z [m]: the height the grains would have
-// at random loose packing. One value per cell along x.
+// Bed height profile h(x) = integral of f_s dy / f_s,min, averaged over z [m]: the height the grains would
+// have at random loose packing. One value per cell along x.
 std::vector<double> bed_height_profile(const CellFields& fields, const Scene& scene);
 
-// f_s of each row of cells y = const, averaged over the columns where the bed stood at the start (cells that are
-// partly under it count by their share); empty if the scene has no bed.
+// f_s of each row of cells y = const, averaged over the columns where the bed stood at the start (cells that
+// are partly under it count by their share); empty if the scene has no bed.
 std::vector<double> bed_profile_along_y(const CellFields& fields, const Scene& scene);
 
 // Share of each cell along direction 0 or 2 that lies in the bed's initial extent [-]; all 0 without a bed.

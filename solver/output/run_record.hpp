@@ -30,13 +30,13 @@ struct RunProgress {
   std::int64_t steps = 0;
   std::int64_t refused_steps = 0;
   std::int64_t cells = 0;
-  double simulated_time = 0.0;  // [s]
-  double wall_seconds = 0.0;    // of the time loop
-  double core_seconds = 0.0;    // CPU time of the time loop, all threads and ranks
-  std::map<std::string, double> cost;  // part of the time step -> wall seconds
-  double solid_volume_error = 0.0;     // largest relative change of the solid volume [-]
-  double liquid_volume_error = 0.0;    // [-]
-  double solid_fraction_max = 0.0;     // largest f_s that ever occurred [-]
+  double simulated_time = 0.0;             // [s]
+  double wall_seconds = 0.0;               // of the time loop
+  double core_seconds = 0.0;               // CPU time of the time loop, all threads and ranks
+  std::map<std::string, double> cost;      // part of the time step -> wall seconds
+  double solid_volume_error = 0.0;         // largest relative change of the solid volume [-]
+  double liquid_volume_error = 0.0;        // [-]
+  double solid_fraction_max = 0.0;         // largest f_s that ever occurred [-]
   std::map<std::string, double> monitors;  // further numbers of the program (iterations, energies, ...)
 };
 

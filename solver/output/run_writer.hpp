@@ -1,8 +1,8 @@
 // The run directory: series.csv, fields.h5, fields.xdmf, run.json and checkpoint.h5.
 //
-// Nothing in the directory is touched before the first write of any kind; a run that fails while it is being set up
-// leaves an earlier run as it was. Every file on disk is complete at every moment (series.csv up to its last newline),
-// so that a full disk or a kill costs at most what was being written.
+// Nothing in the directory is touched before the first write of any kind; a run that fails while it is being
+// set up leaves an earlier run as it was. Every file on disk is complete at every moment (series.csv up to
+// its last newline), so that a full disk or a kill costs at most what was being written.
 #pragma once
 
 #include <filesystem>
@@ -23,13 +23,14 @@ namespace granvof {
 
 class RunWriter {
  public:
-  // A run from the beginning. `monitors` are the program's own columns, between time and the scalars of extract.hpp.
-  // Throws OutputError if `directory` cannot be made or written, is in use by another run, or holds files but no run.
+  // A run from the beginning. `monitors` are the program's own columns, between time and the scalars of
+  // extract.hpp. Throws OutputError if `directory` cannot be made or written, is in use by another run, or
+  // holds files but no run.
   static RunWriter fresh(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
                          std::vector<Column> monitors);
-  // The run of `directory` continued from a checkpoint of time `time` [s]: later rows and instants are removed.
-  // Throws OutputError also if the directory holds a run of another case or program.
-  // A row and an instant due at the time of a checkpoint must be written before it.
+  // The run of `directory` continued from a checkpoint of time `time` [s]: later rows and instants are
+  // removed. Throws OutputError also if the directory holds a run of another case or program. A row and an
+  // instant due at the time of a checkpoint must be written before it.
   static RunWriter resume(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
                           std::vector<Column> monitors, double time);
 
@@ -47,8 +48,8 @@ class RunWriter {
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
 
  private:
-  RunWriter(std::filesystem::path directory, const Scene& scene, const RunStart& start, std::vector<Column> monitors,
-            std::optional<double> resume_time);
+  RunWriter(std::filesystem::path directory, const Scene& scene, const RunStart& start,
+            std::vector<Column> monitors, std::optional<double> resume_time);
   void start_writing();
   void start_fresh();
   void start_resumed(double time);

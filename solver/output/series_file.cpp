@@ -1,15 +1,15 @@
 #include "solver/output/series_file.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "solver/output/output_error.hpp"
 
@@ -46,7 +46,8 @@ std::optional<double> parse_number(std::string_view text) {
 Column parse_header(std::string_view field) {
   const auto open = field.rfind(" [");
   if (open == std::string_view::npos || !field.ends_with(']')) return {std::string(field), "", ""};
-  return {std::string(field.substr(0, open)), std::string(field.substr(open + 2, field.size() - open - 3)), ""};
+  return {std::string(field.substr(0, open)), std::string(field.substr(open + 2, field.size() - open - 3)),
+          ""};
 }
 
 // Complete lines only: what follows the last newline is a torn row.
@@ -61,7 +62,9 @@ std::vector<std::string_view> complete_lines(std::string_view text) {
 
 }  // namespace
 
-std::string column_header(const Column& column) { return column.name + " [" + column.unit + "]"; }
+std::string column_header(const Column& column) {
+  return column.name + " [" + column.unit + "]";
+}
 
 SeriesFile::SeriesFile(std::filesystem::path path, std::size_t columns)
     : path_(std::move(path)),
@@ -80,7 +83,8 @@ SeriesFile SeriesFile::resume(const std::filesystem::path& path, std::span<const
   const std::string header = header_line(columns);
   const std::string text = read_file(path);
   if (!text.starts_with(header)) {
-    throw OutputError("resume", path, "its columns are not those of this program; it was written by another version");
+    throw OutputError("resume", path,
+                      "its columns are not those of this program; it was written by another version");
   }
   std::string kept = header;
   for (const auto line : complete_lines(std::string_view(text).substr(header.size()))) {
@@ -102,9 +106,11 @@ void SeriesFile::append(std::span<const Value> row) {
     if (c > 0) line += ',';
     if (!row[c]) continue;
     if (!std::isfinite(*row[c])) {
-      throw std::invalid_argument(fmt::format("column {} of a row of {} is {}", c + 1, path_.string(), *row[c]));
+      throw std::invalid_argument(
+          fmt::format("column {} of a row of {} is {}", c + 1, path_.string(), *row[c]));
     }
-    fmt::format_to(std::back_inserter(line), "{}", *row[c]);  // shortest text that reads back as the same number
+    fmt::format_to(std::back_inserter(line), "{}",
+                   *row[c]);  // shortest text that reads back as the same number
   }
   line += '\n';
   const off_t before = ::lseek(file_.get(), 0, SEEK_END);
@@ -117,14 +123,17 @@ void SeriesFile::append(std::span<const Value> row) {
   }
 }
 
-void SeriesFile::flush_to_disk() { sync(file_, path_); }
+void SeriesFile::flush_to_disk() {
+  sync(file_, path_);
+}
 
 bool Series::has(std::string_view name) const {
   return std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
 }
 
 std::vector<Value> Series::column(std::string_view name) const {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
   if (found == columns.end()) throw std::out_of_range(fmt::format("the series has no column '{}'", name));
   const auto c = static_cast<std::size_t>(found - columns.begin());
   std::vector<Value> values;
@@ -142,8 +151,9 @@ Series read_series(const std::filesystem::path& path) {
   for (std::size_t l = 1; l < lines.size(); ++l) {
     const auto fields = split(lines[l]);
     if (fields.size() != series.columns.size()) {
-      throw OutputError("read", path, fmt::format("line {} has {} fields, the header has {}", l + 1, fields.size(),
-                                                  series.columns.size()));
+      throw OutputError("read", path,
+                        fmt::format("line {} has {} fields, the header has {}", l + 1, fields.size(),
+                                    series.columns.size()));
     }
     auto& row = series.rows.emplace_back();
     for (std::size_t c = 0; c < fields.size(); ++c) {
@@ -153,8 +163,9 @@ Series read_series(const std::filesystem::path& path) {
       }
       const auto value = parse_number(fields[c]);
       if (!value) {
-        throw OutputError("read", path, fmt::format("line {}, {}: '{}' is not a finite number", l + 1,
-                                                    series.columns[c].name, fields[c]));
+        throw OutputError("read", path,
+                          fmt::format("line {}, {}: '{}' is not a finite number", l + 1,
+                                      series.columns[c].name, fields[c]));
       }
       row.emplace_back(*value);
     }

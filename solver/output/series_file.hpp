@@ -31,9 +31,11 @@ class SeriesFile {
   static SeriesFile create(const std::filesystem::path& path, std::span<const Column> columns);
   // Goes on with an existing file: rows later than `last_time` [s] and a torn last row are removed.
   // Throws OutputError if the file cannot be read or its header is another.
-  static SeriesFile resume(const std::filesystem::path& path, std::span<const Column> columns, double last_time);
+  static SeriesFile resume(const std::filesystem::path& path, std::span<const Column> columns,
+                           double last_time);
 
-  // One value per column; throws std::invalid_argument for a wrong count, NaN or infinity, OutputError if not written.
+  // One value per column; throws std::invalid_argument for a wrong count, NaN or infinity, OutputError if not
+  // written.
   void append(std::span<const Value> row);
   void flush_to_disk();
 
@@ -47,8 +49,8 @@ class SeriesFile {
 
 // A whole series.csv in memory.
 struct Series {
-  std::vector<Column> columns;            // without descriptions
-  std::vector<std::vector<Value>> rows;   // rows[i][c]
+  std::vector<Column> columns;           // without descriptions
+  std::vector<std::vector<Value>> rows;  // rows[i][c]
 
   bool has(std::string_view name) const;
   // All values of one column. Throws std::out_of_range naming the column if there is none.

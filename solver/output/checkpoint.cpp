@@ -1,0 +1,123 @@
+#include "solver/output/checkpoint.hpp"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/hdf5_file.hpp"
+#include "solver/output/output_error.hpp"
+
+namespace granvof {
+
+namespace {
+
+constexpr std::int64_t format_version = 1;
+constexpr const char* format_name = "granvof checkpoint";
+
+template <class Map>
+const typename Map::mapped_type& look_up(const Map& map, const std::string& name,
+                                         const std::filesystem::path& file, const char* kind) {
+  const auto found = map.find(name);
+  if (found == map.end())
+    throw OutputError("resume from", file, fmt::format("it has no {} '{}'", kind, name));
+  return found->second;
+}
+
+std::string checkpoint_content(const Scene& scene, const CheckpointView& state) {
+  const hdf5::QuietErrors quiet;
+  const auto file = hdf5::create_in_memory();
+  hdf5::write_attribute(file, "format", std::string(format_name));
+  hdf5::write_attribute(file, "format_version", format_version);
+  hdf5::write_attribute(file, "case_hash", scene.hash);
+  hdf5::write_attribute(file, "scene", scene.name);
+  hdf5::write_attribute(file, "cells", std::span<const int>(scene.grid.cells));
+  hdf5::write_attribute(file, "time", state.time);
+  const auto scalars = hdf5::create_group(file, "scalars");
+  for (const auto& [name, value] : state.scalars) hdf5::write_attribute(scalars, name, value);
+  const auto counters = hdf5::create_group(file, "counters");
+  for (const auto& [name, value] : state.counters) hdf5::write_attribute(counters, name, value);
+  const auto arrays = hdf5::create_group(file, "arrays");
+  for (const auto& [name, values] : state.arrays) hdf5::write_doubles(arrays, name, values);
+  return hdf5::content_of(file);
+}
+
+void check_origin(const hdf5::Handle& file, const Scene& scene, const std::filesystem::path& path) {
+  if (H5Aexists(file, "format") <= 0 || hdf5::read_string_attribute(file, "format") != format_name) {
+    throw OutputError("resume from", path, "it is not a granvof checkpoint");
+  }
+  if (const auto version = hdf5::read_integer_attribute(file, "format_version"); version != format_version) {
+    throw OutputError(
+        "resume from", path,
+        fmt::format("it has format version {}, this program reads {}", version, format_version));
+  }
+  if (const auto hash = hdf5::read_string_attribute(file, "case_hash"); hash != scene.hash) {
+    throw OutputError("resume from", path,
+                      fmt::format("it was written by another case: {} with hash {}, this is {} with hash {}",
+                                  hdf5::read_string_attribute(file, "scene"), hash, scene.name, scene.hash));
+  }
+  const auto cells = hdf5::read_double_array_attribute(file, "cells");
+  if (cells != std::vector<double>(scene.grid.cells.begin(), scene.grid.cells.end())) {
+    throw OutputError("resume from", path,
+                      fmt::format("it has {} cells, this case has {}", fmt::join(cells, " x "),
+                                  fmt::join(scene.grid.cells, " x ")));
+  }
+}
+
+}  // namespace
+
+const std::vector<double>& Checkpoint::array(const std::string& name, std::size_t size) const {
+  const auto& values = look_up(arrays, name, file, "array");
+  if (values.size() != size) {
+    throw OutputError("resume from", file,
+                      fmt::format("array '{}' has {} values, {} are expected", name, values.size(), size));
+  }
+  return values;
+}
+
+double Checkpoint::scalar(const std::string& name) const {
+  return look_up(scalars, name, file, "scalar");
+}
+
+std::int64_t Checkpoint::counter(const std::string& name) const {
+  return look_up(counters, name, file, "counter");
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Scene& scene, const CheckpointView& state) {
+  std::string content;
+  try {
+    content = checkpoint_content(scene, state);
+  } catch (const std::runtime_error& error) {
+    throw OutputError("write", path, error.what());
+  }
+  write_file_atomically(path, content);
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path, const Scene& scene) {
+  const hdf5::QuietErrors quiet;
+  const auto file = hdf5::open_for_reading(path);
+  try {
+    check_origin(file, scene, path);
+    Checkpoint state;
+    state.file = path;
+    state.time = hdf5::read_double_attribute(file, "time");
+    const auto scalars = hdf5::open_group(file, "scalars");
+    for (const auto& name : hdf5::attribute_names(scalars)) {
+      state.scalars[name] = hdf5::read_double_attribute(scalars, name);
+    }
+    const auto counters = hdf5::open_group(file, "counters");
+    for (const auto& name : hdf5::attribute_names(counters)) {
+      state.counters[name] = hdf5::read_integer_attribute(counters, name);
+    }
+    const auto arrays = hdf5::open_group(file, "arrays");
+    for (const auto& name : hdf5::names_in(arrays)) state.arrays[name] = hdf5::read_doubles(arrays, name);
+    return state;
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw OutputError("resume from", path, error.what());
+  }
+}
+
+}  // namespace granvof

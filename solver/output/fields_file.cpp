@@ -1,0 +1,300 @@
+#include "solver/output/fields_file.hpp"
+
+#include <cstdint>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/build_info.hpp"
+#include "solver/output/hdf5_file.hpp"
+#include "solver/output/output_error.hpp"
+#include "solver/output/run_record.hpp"
+#include "solver/output/xdmf.hpp"
+
+namespace granvof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* file_name = "fields.h5";
+constexpr const char* pieces_directory = "fields";
+
+std::string group_name(std::size_t index) {
+  return fmt::format("t{:04}", index);
+}
+
+// Runs `action`, turning HDF5's failures into OutputError.
+template <class Action>
+auto with_path(const char* verb, const fs::path& path, Action action) {
+  try {
+    return action();
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw OutputError(verb, path, error.what());
+  }
+}
+
+void write_scalar(hid_t group, const char* name, const CellFields& fields,
+                  const std::vector<double>& values) {
+  const hsize_t shape[] = {static_cast<hsize_t>(fields.cells[2]), static_cast<hsize_t>(fields.cells[1]),
+                           static_cast<hsize_t>(fields.cells[0])};
+  std::vector<float> single(values.size());
+  for (std::size_t c = 0; c < values.size(); ++c) single[c] = static_cast<float>(values[c]);
+  hdf5::write_compressed(group, name, shape, single);
+}
+
+// Always three components: a missing one, in 2D, is 0.
+void write_vector(hid_t group, const char* name, const CellFields& fields,
+                  const std::array<std::vector<double>, 3>& components) {
+  const hsize_t shape[] = {static_cast<hsize_t>(fields.cells[2]), static_cast<hsize_t>(fields.cells[1]),
+                           static_cast<hsize_t>(fields.cells[0]), 3};
+  std::vector<float> single(3 * fields.f_s.size(), 0.0F);
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t c = 0; c < components[d].size(); ++c)
+      single[3 * c + d] = static_cast<float>(components[d][c]);
+  }
+  hdf5::write_compressed(group, name, shape, single);
+}
+
+void write_instant(hid_t group, const CellFields& fields) {
+  hdf5::write_attribute(group, "time", fields.time);
+  write_scalar(group, "f_s", fields, fields.f_s);
+  write_scalar(group, "alpha", fields, fields.alpha);
+  write_scalar(group, "p_c", fields, fields.p_c);
+  write_scalar(group, "theta", fields, fields.theta);
+  write_scalar(group, "phi", fields, fields.phi);
+  if (!fields.p_s.empty()) write_scalar(group, "p_s", fields, fields.p_s);
+  write_vector(group, "u_s", fields, fields.u_s);
+  write_vector(group, "u_c", fields, fields.u_c);
+}
+
+std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
+  const auto values = hdf5::read_doubles(group, name);
+  std::array<std::vector<double>, 3> components;
+  for (std::size_t d = 0; d < 3; ++d) {
+    components[d].reserve(values.size() / 3);
+    for (std::size_t c = d; c < values.size(); c += 3) components[d].push_back(values[c]);
+  }
+  return components;
+}
+
+// Copies one group of `source` to `target`; links to other files are followed.
+void copy_group(hid_t source, const std::string& name, hid_t target, const std::string& new_name) {
+  const auto group = hdf5::open_group(source, name);
+  if (H5Ocopy(group, ".", target, new_name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+    throw std::runtime_error("group " + name + ": " + hdf5::last_error());
+  }
+}
+
+}  // namespace
+
+void check_sizes(const CellFields& fields) {
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (fields.cells[d] < 1 || !(fields.spacing[d] > 0.0)) {
+      throw std::invalid_argument(
+          fmt::format("fields with {} cells of {} m in direction {}", fields.cells[d], fields.spacing[d], d));
+    }
+    count *= static_cast<std::size_t>(fields.cells[d]);
+  }
+  const auto check = [&](const std::vector<double>& values, const char* name, bool may_be_empty) {
+    if (values.size() == count || (may_be_empty && values.empty())) return;
+    throw std::invalid_argument(fmt::format("{} has {} values for {} cells", name, values.size(), count));
+  };
+  check(fields.f_s, "f_s", false);
+  check(fields.alpha, "alpha", false);
+  check(fields.p_c, "p_c", false);
+  check(fields.p_s, "p_s", true);
+  check(fields.theta, "theta", false);
+  check(fields.phi, "phi", false);
+  for (std::size_t d = 0; d < 3; ++d) {
+    check(fields.u_s[d], "u_s", d == 2 && fields.cells[2] == 1);
+    check(fields.u_c[d], "u_c", d == 2 && fields.cells[2] == 1);
+  }
+}
+
+FieldsFile::FieldsFile(fs::path directory, const Scene& scene)
+    : directory_(std::move(directory)),
+      scene_name_(scene.name),
+      cells_(scene.grid.cells),
+      spacing_(scene.grid.spacing) {}
+
+fs::path FieldsFile::piece(std::size_t index) const {
+  return directory_ / pieces_directory / (group_name(index) + ".h5");
+}
+
+FieldsFile FieldsFile::create(const fs::path& directory, const Scene& scene) {
+  FieldsFile file(directory, scene);
+  file.write_index();
+  return file;
+}
+
+FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, double last_time) {
+  FieldsFile result(directory, scene);
+  const auto path = directory / file_name;
+  {
+    const hdf5::QuietErrors quiet;
+    const auto file = hdf5::open_for_reading(path);
+    with_path("resume", path, [&] {
+      fs::create_directories(directory / pieces_directory);
+      const auto count = hdf5::names_in(file).size();
+      for (std::size_t index = 0; index < count; ++index) {
+        const auto name = group_name(index);
+        const auto group = hdf5::open_group(file, name);
+        const double time = hdf5::read_double_attribute(group, "time");
+        if (time > last_time) break;
+        const auto target = result.piece(index);
+        if (!fs::exists(target)) {  // fields.h5 has been joined: take the instant out again
+          const auto memory = hdf5::create_in_memory();
+          copy_group(file, name, memory, "instant");
+          write_file_atomically(target, hdf5::content_of(memory));
+        }
+        result.instants_.push_back({time, hdf5::exists(group, "p_s")});
+      }
+    });
+  }
+  result.write_index();
+  for (std::size_t index = result.instants_.size(); fs::exists(result.piece(index)); ++index) {
+    fs::remove(result.piece(index));
+  }
+  return result;
+}
+
+void FieldsFile::append(const CellFields& fields) {
+  check_sizes(fields);
+  if (fields.cells != cells_) throw std::invalid_argument("the fields have not the grid of the scene");
+  const auto path = piece(instants_.size());
+  const std::string content = with_path("write", path, [&] {
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) throw OutputError("write", path, error.message());
+    const hdf5::QuietErrors quiet;
+    const auto memory = hdf5::create_in_memory();
+    write_instant(hdf5::create_group(memory, "instant"), fields);
+    return hdf5::content_of(memory);
+  });
+  write_file_atomically(path, content);
+  instants_.push_back({fields.time, !fields.p_s.empty()});
+  try {
+    write_index();
+  } catch (...) {
+    instants_.pop_back();
+    throw;
+  }
+}
+
+std::string FieldsFile::xdmf() const {
+  std::vector<XdmfInstant> instants;
+  for (std::size_t index = 0; index < instants_.size(); ++index) {
+    instants.push_back({group_name(index), instants_[index].time, instants_[index].has_solid_pressure});
+  }
+  return xdmf_text(file_name, cells_, spacing_, instants);
+}
+
+// `file` is an identifier of HDF5.
+void FieldsFile::write_file_attributes(std::int64_t file) const {
+  const Vec3 origin{};
+  hdf5::write_attribute(file, "contract_version", std::int64_t{output_contract_version});
+  hdf5::write_attribute(file, "version", std::string(build_info().version));
+  hdf5::write_attribute(file, "scene", scene_name_);
+  hdf5::write_attribute(file, "cells", std::span<const int>(cells_));
+  hdf5::write_attribute(file, "spacing", std::span<const double>(spacing_));
+  hdf5::write_attribute(file, "origin", std::span<const double>(origin));
+}
+
+void FieldsFile::write_index() const {
+  const auto path = directory_ / file_name;
+  const std::string content = with_path("write", path, [&] {
+    const hdf5::QuietErrors quiet;
+    const auto memory = hdf5::create_in_memory();
+    write_file_attributes(memory);
+    for (std::size_t index = 0; index < instants_.size(); ++index) {
+      const auto target = fmt::format("{}/{}.h5", pieces_directory, group_name(index));
+      if (H5Lcreate_external(target.c_str(), "/instant", memory, group_name(index).c_str(), H5P_DEFAULT,
+                             H5P_DEFAULT) < 0) {
+        throw std::runtime_error(hdf5::last_error());
+      }
+    }
+    return hdf5::content_of(memory);
+  });
+  write_file_atomically(path, content);
+  write_file_atomically(directory_ / "fields.xdmf", xdmf());
+}
+
+bool FieldsFile::join() {
+  if (instants_.empty()) return true;
+  const auto path = directory_ / file_name;
+  const auto draft = directory_ / "fields.h5.tmp";
+  std::error_code ignored;
+  try {
+    const hdf5::QuietErrors quiet;
+    const auto source = hdf5::open_for_reading(path);
+    hdf5::Handle target(H5Fcreate(draft.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    if (target < 0) return false;
+    write_file_attributes(target);
+    for (std::size_t index = 0; index < instants_.size(); ++index) {
+      copy_group(source, group_name(index), target, group_name(index));
+    }
+    if (!target.close()) throw std::runtime_error("not written");
+    const Descriptor written(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!written.valid()) throw std::runtime_error("not written");
+    sync(written, draft);
+    rename_into_place(path);
+  } catch (const std::runtime_error&) {
+    fs::remove(draft, ignored);
+    return false;
+  }
+  fs::remove_all(directory_ / pieces_directory, ignored);
+  return true;
+}
+
+std::vector<double> read_field_times(const fs::path& fields_h5) {
+  const hdf5::QuietErrors quiet;
+  const auto file = hdf5::open_for_reading(fields_h5);
+  return with_path("read", fields_h5, [&] {
+    std::vector<double> times;
+    const auto count = hdf5::names_in(file).size();
+    for (std::size_t index = 0; index < count; ++index) {
+      times.push_back(hdf5::read_double_attribute(hdf5::open_group(file, group_name(index)), "time"));
+    }
+    return times;
+  });
+}
+
+CellFields read_fields(const fs::path& fields_h5, std::size_t index) {
+  const hdf5::QuietErrors quiet;
+  const auto file = hdf5::open_for_reading(fields_h5);
+  return with_path("read", fields_h5, [&] {
+    const auto group = hdf5::open_group(file, group_name(index));
+    CellFields fields;
+    fields.time = hdf5::read_double_attribute(group, "time");
+    const auto cells = hdf5::read_double_array_attribute(file, "cells");
+    const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
+    if (cells.size() != 3 || spacing.size() != 3)
+      throw std::runtime_error("cells or spacing is not a triple");
+    for (std::size_t d = 0; d < 3; ++d) {
+      fields.cells[d] = static_cast<int>(cells[d]);
+      fields.spacing[d] = spacing[d];
+    }
+    fields.f_s = hdf5::read_doubles(group, "f_s");
+    fields.alpha = hdf5::read_doubles(group, "alpha");
+    fields.p_c = hdf5::read_doubles(group, "p_c");
+    fields.theta = hdf5::read_doubles(group, "theta");
+    fields.phi = hdf5::read_doubles(group, "phi");
+    if (hdf5::exists(group, "p_s")) fields.p_s = hdf5::read_doubles(group, "p_s");
+    fields.u_s = read_vector(group, "u_s");
+    fields.u_c = read_vector(group, "u_c");
+    try {
+      check_sizes(fields);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(group_name(index) + ": " + error.what());
+    }
+    return fields;
+  });
+}
+
+}  // namespace granvof

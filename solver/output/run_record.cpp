@@ -1,0 +1,114 @@
+#include "solver/output/run_record.hpp"
+
+#include <chrono>
+#include <string_view>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/build_info.hpp"
+#include "solver/output/host_facts.hpp"
+#include "solver/output/output_error.hpp"
+
+namespace granvof {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::string_view format_name = "granvof run";
+
+std::string_view exit_state_name(ExitState state) {
+  switch (state) {
+    case ExitState::running:
+      return "running";
+    case ExitState::finished:
+      return "finished";
+    case ExitState::failed:
+      return "failed";
+    case ExitState::stopped:
+      return "stopped";
+  }
+  return "";
+}
+
+ordered_json host_json() {
+  const auto host = host_facts();
+  const auto& build = build_info();
+  return {{"cpu_model", host.cpu_model},       {"cores", host.cores},
+          {"memory_bytes", host.memory_bytes}, {"operating_system", host.operating_system},
+          {"compiler", build.compiler},        {"flags", build.flags},
+          {"build_type", build.build_type}};
+}
+
+}  // namespace
+
+std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
+                            const RunExit& exit) {
+  const auto& build = build_info();
+  ordered_json json;
+  json["format"] = format_name;
+  json["contract_version"] = output_contract_version;
+  json["program"] = record.start.program;
+  json["scene"] = scene.name;
+  json["title"] = scene.title;
+  json["case_hash"] = scene.hash;
+  json["version"] = build.version;
+  json["git_commit"] = build.git_commit.empty() ? ordered_json() : ordered_json(build.git_commit);
+  json["command"] = record.start.command;
+  json["start_date"] = record.start_date;
+  json["resumptions"] = ordered_json::array();
+  for (const auto& [date, time] : record.resumptions) {
+    json["resumptions"].push_back({{"date", date}, {"time", time}});
+  }
+  json["ranks"] = record.start.ranks;
+  json["threads"] = record.start.threads;
+  json["cells"] = progress.cells;
+  json["grid"] = {{"cells", scene.grid.cells}, {"spacing", scene.grid.spacing}};
+  json["steps"] = progress.steps;
+  json["refused_steps"] = progress.refused_steps;
+  json["simulated_time"] = progress.simulated_time;
+  json["wall_seconds"] = progress.wall_seconds;
+  json["core_seconds"] = progress.core_seconds;
+  const double cell_steps = static_cast<double>(progress.cells) * static_cast<double>(progress.steps);
+  json["cell_steps_per_second"] =
+      progress.wall_seconds > 0.0 ? ordered_json(cell_steps / progress.wall_seconds) : ordered_json();
+  json["cost"] = progress.cost;
+  json["solid_volume_error"] = progress.solid_volume_error;
+  json["liquid_volume_error"] = progress.liquid_volume_error;
+  json["solid_fraction_max"] = progress.solid_fraction_max;
+  json["monitors"] = progress.monitors;
+  json["exit"] = {
+      {"state", exit_state_name(exit.state)}, {"reason", exit.reason}, {"time", progress.simulated_time}};
+  json["host"] = host_json();
+  json["resolved_case"] = scene.resolved;
+  // Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(run_json, none)) return std::nullopt;
+  const auto json = ordered_json::parse(read_file(run_json), nullptr, false);
+  try {
+    if (json.is_discarded() || json.at("format") != format_name) return std::nullopt;
+    ExistingRun run;
+    run.program = json.at("program");
+    run.case_hash = json.at("case_hash");
+    run.record.start_date = json.at("start_date");
+    for (const auto& entry : json.at("resumptions")) {
+      run.record.resumptions.push_back({entry.at("date"), entry.at("time")});
+    }
+    return run;
+  } catch (const ordered_json::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::string iso_date_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+}
+
+}  // namespace granvof
