@@ -26,6 +26,7 @@ enum class WallKind {
 struct PhaseWall {
   WallKind kind = WallKind::no_slip;
   double friction = 0.0;  // mu_w [-], >= 0, read for coulomb only
+  bool operator==(const PhaseWall&) const = default;
 };
 
 enum class SideKind {
@@ -39,6 +40,7 @@ struct Side {
   PhaseWall fluid;
   PhaseWall solid;
   Vec3 velocity{};  // tangential velocity of the wall [m/s]
+  bool operator==(const Side&) const = default;
 };
 
 enum SideIndex { left = 0, right = 1, bottom = 2, top = 3, front = 4, back = 5 };
@@ -48,25 +50,29 @@ enum SideIndex { left = 0, right = 1, bottom = 2, top = 3, front = 4, back = 5 }
 struct Fluid {
   double density = 0.0;    // rho_g, rho_l [kg/m3], > 0
   double viscosity = 0.0;  // mu_g, mu_l [Pa s], >= 0
+  bool operator==(const Fluid&) const = default;
 };
 
+// A case without grains has no [solid]; the defaults then stand in, so that laws stay finite at f_s = 0.
 struct Solid {
-  double density = 0.0;      // rho_s [kg/m3], > 0
-  double diameter = 0.0;     // d_s [m], > 0
+  double density = 1000.0;   // rho_s [kg/m3], > 0
+  double diameter = 1e-3;    // d_s [m], > 0
   double restitution = 0.9;  // e0 [-], in [0, 1]
   double friction = 0.0;     // eta_s = tan(theta_s) [-], >= 0
+  bool operator==(const Solid&) const = default;
 };
 
 // Parameters of the enduring contact, eqs (13)-(17); the defaults are the paper's.
 struct Contact {
-  double stiffness = 1e8;             // K [Pa]
-  double exponent = 1.5;              // chi [-]
-  double dilatancy_factor = 0.28;     // a' [-]
-  double dilatancy_exponent = 0.58;   // delta [-]
-  double dense_solid_fraction = 0.60; // f_s0 of (15) [-]
-  double solid_fraction_min = 0.57;   // f_s,min, random loose packing [-]
-  double solid_fraction_max = 0.63;   // f_s,max [-]
-  double regularisation = 1e5;        // n of (17) [s]
+  double stiffness = 1e8;              // K [Pa]
+  double exponent = 1.5;               // chi [-]
+  double dilatancy_factor = 0.28;      // a' [-]
+  double dilatancy_exponent = 0.58;    // delta [-]
+  double dense_solid_fraction = 0.60;  // f_s0 of (15) [-]
+  double solid_fraction_min = 0.57;    // f_s,min, random loose packing [-]
+  double solid_fraction_max = 0.63;    // f_s,max [-]
+  double regularisation = 1e5;         // n of (17) [s]
+  bool operator==(const Contact&) const = default;
 };
 
 // --- geometry ----------------------------------------------------------------------------------------
@@ -74,17 +80,21 @@ struct Contact {
 struct Box {
   Vec3 lower{};  // [m]
   Vec3 upper{};  // [m]
+  bool operator==(const Box&) const = default;
 };
 
 struct Bed {
-  Box box;                      // where the grains are at the start; length = upper[0] - lower[0], height in y
+  Box box;  // where the grains are at the start; length = upper[0] - lower[0], height in y
   double solid_fraction = 0.0;  // initial packing [-], in (0, f_s,max]
+  double slope = 90.0;          // of the front face, from the horizontal [degrees], in (0, 90]; 90: a box
+  bool operator==(const Bed&) const = default;
 };
 
 // A vertical plate at x = position that holds the column and rises at `speed` from t = 0.
 struct Gate {
   double position = 0.0;  // [m]; the front face of the bed
   double speed = 0.0;     // [m/s], > 0
+  bool operator==(const Gate&) const = default;
 };
 
 // --- what is modelled --------------------------------------------------------------------------------
@@ -93,48 +103,80 @@ enum class TemperatureModel { transported, algebraic, off };
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
 struct Model {
-  bool drag = true;                    // eqs (8), (9)
-  bool les = true;                     // eq (10)
+  bool drag = true;                                                       // eqs (8), (9)
+  bool les = true;                                                        // eq (10)
   TemperatureModel granular_temperature = TemperatureModel::transported;  // eq (7)
-  bool pressure_work = true;           // -P_s^K div u_s in (7), see correction 2 of the model
-  bool dilatancy_pressure = true;      // P_s^EF, eq (14)
-  bool kinetic_viscosity = true;       // mu_s^K and zeta_s^K, eqs (20), (21)
-  bool contact_friction = true;        // tau_s^E, eq (17)
-  bool colour = true;                  // eq (25)
+  bool pressure_work = true;       // -P_s^K div u_s in (7), see correction 2 of the model
+  bool dilatancy_pressure = true;  // P_s^EF, eq (14)
+  bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
+  bool contact_friction = true;    // tau_s^E, eq (17)
+  bool colour = true;              // eq (25)
+  bool operator==(const Model&) const = default;
 };
 
-enum class SolidFlux { upwind, limited };      // first order (the paper), second order bounded
+enum class SolidFlux { upwind, limited };  // first order (the paper), second order bounded
 enum class InterfaceScheme { cicsam, upwind };
 
 struct Numerics {
-  double cfl = 0.4;                     // convective Courant number of the step, in (0, 0.9]
-  double dt_max = 5e-3;                 // [s]
-  double dt_min = 1e-9;                 // a refused step that would be shorter ends the run [s]
+  double cfl = 0.4;      // convective Courant number of the step, in (0, 0.9]
+  double dt_max = 5e-3;  // [s]
+  double dt_min = 1e-9;  // a refused step that would be shorter ends the run [s]
   SolidFlux solid_flux = SolidFlux::upwind;
   InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
-  double volume_tolerance = 1e-6;       // largest volume error of a cell in one step, as a fraction of the cell
-  double linear_tolerance = 1e-3;       // residual reduction of one linear solve inside Newton
+  double volume_tolerance = 1e-6;  // largest volume error of a cell in one step, as a fraction of the cell
+  double linear_tolerance = 1e-3;  // residual reduction of one linear solve inside Newton
   int newton_max = 30;
+  bool operator==(const Numerics&) const = default;
 };
 
 struct Grid3 {
-  std::array<int, 3> cells{1, 1, 1};
-  Vec3 spacing{};  // [m]
+  std::array<int, 3> cells{1, 1, 1};  // in 2D cells[2] = 1
+  Vec3 spacing{};                     // tank / cells [m]; in 2D spacing[2] is the depth
+  bool operator==(const Grid3&) const = default;
+};
+
+// --- the DEM-VOF reference -----------------------------------------------------------------------------
+
+enum class ReferenceFloor { rough, smooth };  // frozen beads cover the floor; a plane with friction
+enum class ReferenceRelease { gate, instant };
+
+// How demvof computes the scene; the solver reads none of it.
+struct ReferenceSettings {
+  double cell = 0.0;             // edge of a fluid cell [m], > 0
+  double fluid_dt = 1e-4;        // fluid step [s], > 0
+  double dt = 1e-5;              // DEM step [s], > 0, at most fluid_dt
+  double slice_depth = 0.0;      // 2D scenes: depth of the periodic slice [m], > 0; 3D: the tank's depth
+  std::vector<int> seeds{1, 2};  // one run each: the spread is the reference's own uncertainty
+  ReferenceFloor floor = ReferenceFloor::rough;
+  ReferenceRelease release = ReferenceRelease::gate;
+  double hold = 0.12;                  // under the final contact law behind the closed gate, before t = 0 [s]
+  double young = 5e6;                  // [Pa]
+  double poisson = 0.3;                // [-], in (-1, 0.5)
+  double bead_friction = 0.0;          // bead on bead [-]; the case's default: solid.friction
+  double bead_rolling_friction = 0.0;  // [-], during the run
+  double bead_restitution = 0.0;       // [-]; the case's default: solid.restitution
+  double wall_friction = 0.0;          // bead on wall [-]; the case's default: bead_friction
+  double packing = 0.0;               // solid fraction to prepare [-]; the case's default: bed.solid_fraction
+  double preparation_friction = 1.0;  // bead on bead while the column settles: sets the packing [-]
+  double preparation_rolling_friction = 0.2;  // [-]
+  bool operator==(const ReferenceSettings&) const = default;
 };
 
 // --- times and output --------------------------------------------------------------------------------
 
 struct Times {
-  double end = 0.0;                    // [s]
-  double unit = 1.0;                   // seconds per unit of the case file's times: 1, or sqrt(h0 / g)
-  double hold = 0.0;                   // time behind the closed gate before t = 0 [s], >= 0
-  double series_interval = 0.0;        // [s], > 0
-  std::vector<double> field_times;     // [s], ascending, the end included
-  double checkpoint_interval = 0.0;    // wall-clock seconds between checkpoints; 0: only at the end and on failure
+  double end = 0.0;                 // [s]
+  double unit = 1.0;                // seconds per unit of the case file's times: 1, or sqrt(h0 / g)
+  double hold = 0.0;                // time behind the closed gate before t = 0 [s], >= 0
+  double series_interval = 0.0;     // [s], > 0
+  std::vector<double> field_times;  // [s], ascending, the end included
+  double checkpoint_interval =
+      0.0;  // wall-clock seconds between checkpoints; 0: only at the end and on failure
+  bool operator==(const Times&) const = default;
 };
 
 struct Scene {
-  std::string name;   // unique, equals the file's stem
+  std::string name;  // unique, equals the file's stem
   std::string title;
   std::filesystem::path file;
   int dimensions = 2;  // 2 or 3
@@ -142,17 +184,23 @@ struct Scene {
   double gravity = 9.81;
   Grid3 grid;
   std::array<Side, 6> sides{};  // indexed by SideIndex
-  Fluid gas, liquid;
+  Fluid gas;
+  Fluid liquid;  // a case without [liquid] has the gas here, and no liquid_boxes
   Solid solid;
   Contact contact;
   std::optional<Bed> bed;
   std::vector<Box> liquid_boxes;  // where alpha = 1 at the start, pores of the bed included
   std::optional<Gate> gate;
+  std::optional<ReferenceSettings> reference;
   Model model;
   Numerics numerics;
   Times times;
-  std::string resolved;   // canonical text of the resolved case: what `granvof check` prints
-  std::string hash;       // of `resolved` without numerics, output and reference: same hash, same physics and geometry
+  std::string resolved;  // canonical text of the resolved case: what `granvof check` prints
+  std::string hash;      // 16 hex digits: same hash, same geometry, physics, model and reference settings;
+                         // grid, numerics, length of the run and output are left out
+  std::string
+      reference_hash;  // the same without [contact] and [model]: what the DEM-VOF reference depends on
+  bool operator==(const Scene&) const = default;
 };
 
 }  // namespace granvof

@@ -1,0 +1,70 @@
+// A case between text and Scene: what its keys say, before defaults that depend on other keys are filled in.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "solver/scene/scene.hpp"
+
+namespace granvof::case_file {
+
+enum class SideWord { no_slip, slip, open, periodic };
+
+// Either one word for the whole side, or the phases apart.
+struct SideInput {
+  std::optional<SideWord> word;
+  std::optional<WallKind> fluid, solid;
+  std::optional<double> solid_friction;
+  std::vector<double> velocity;  // empty: at rest
+};
+
+enum class BedPlace { floor, on_water, floating };
+enum class TimeUnit { second, column };
+
+struct BedInput {
+  double x = 0.0;
+  double length = 0.0, height = 0.0;
+  double solid_fraction = 0.0;
+  double slope = Bed{}.slope;
+  std::variant<double, BedPlace> y = BedPlace::floor;
+  std::optional<double> z, width;
+};
+
+struct ReferenceInput {
+  ReferenceSettings settings;
+  std::optional<ReferenceRelease> release;
+  std::optional<double> slice_depth, hold, packing, bead_friction, bead_restitution, wall_friction;
+};
+
+struct TimesInput {
+  double end = 0.0;
+  TimeUnit unit = TimeUnit::second;
+  double hold = 0.0;
+  std::optional<double> series_interval, field_interval;
+  std::vector<double> field_times;
+  double checkpoint_interval = Times{}.checkpoint_interval;
+};
+
+inline constexpr int side_all = 6;  // index of walls.all beside those of SideIndex
+
+struct Draft {
+  std::set<std::string> tables;  // the tables that the case has
+  Scene scene;                   // holds what a key gives directly
+  std::vector<double> tank_size;
+  std::optional<double> depth;
+  double dx = 0.0;
+  std::optional<double> dy, dz;
+  std::array<SideInput, 7> sides;
+  std::optional<double> level;
+  std::vector<double> box_origin, box_size;
+  BedInput bed;
+  std::optional<double> gate_position;
+  double gate_speed = 0.0;
+  TimesInput times;
+  ReferenceInput reference;
+};
+
+}  // namespace granvof::case_file

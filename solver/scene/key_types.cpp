@@ -1,0 +1,64 @@
+#include "solver/scene/key_types.hpp"
+
+#include <algorithm>
+
+namespace granvof::case_file {
+
+double as_number(const Value& value) {
+  if (const auto* i = std::get_if<std::int64_t>(&value)) return static_cast<double>(*i);
+  if (const auto* x = std::get_if<double>(&value)) return *x;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool read_value(double& to, const Value& from, const Range& range) {
+  to = as_number(from);
+  return range.holds(to);
+}
+
+bool read_value(int& to, const Value& from, const Range& range) {
+  const auto* i = std::get_if<std::int64_t>(&from);
+  if (!i || *i < std::numeric_limits<int>::min() || *i > std::numeric_limits<int>::max()) return false;
+  to = static_cast<int>(*i);
+  return range.holds(to);
+}
+
+bool read_value(bool& to, const Value& from, const Range&) {
+  const auto* b = std::get_if<bool>(&from);
+  if (b) to = *b;
+  return b != nullptr;
+}
+
+bool read_value(std::string& to, const Value& from, const Range&) {
+  const auto* s = std::get_if<std::string>(&from);
+  if (s) to = *s;
+  return s && !s->empty();
+}
+
+bool read_value(std::vector<double>& to, const Value& from, const Range& range) {
+  const auto* list = std::get_if<std::vector<double>>(&from);
+  if (list) to = *list;
+  return list && std::all_of(list->begin(), list->end(), [&](double x) { return range.holds(x); });
+}
+
+bool read_value(std::vector<int>& to, const Value& from, const Range& range) {
+  const auto* list = std::get_if<std::vector<double>>(&from);
+  if (!list) return false;
+  to.clear();
+  for (const double x : *list) {
+    if (!range.holds(x) || x != std::round(x) || std::abs(x) > std::numeric_limits<int>::max()) return false;
+    to.push_back(static_cast<int>(x));
+  }
+  return true;
+}
+
+std::string allowed_text(const std::string& type, const Range& range, const std::string& unit) {
+  const std::string unit_text = unit.empty() || unit == "-" ? "" : " [" + unit + "]";
+  if (type == "true or false") return type;
+  if (type == "text") return "text in quotes, not empty";
+  if (type.starts_with("list")) {
+    return "a " + type + (range.text().empty() ? "" : ", each" + range.text()) + unit_text;
+  }
+  return (type == "integer" ? "an " : "a ") + type + range.text() + unit_text;
+}
+
+}  // namespace granvof::case_file

@@ -1,0 +1,333 @@
+#include "solver/scene/keys.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "solver/scene/key_types.hpp"
+#include "solver/scene/side_names.hpp"
+
+namespace granvof::case_file {
+namespace {
+
+// The member of a Draft that a key fills. A function cannot name a member of a member; this keeps a row on a
+// line.
+#define MEMBER(path)         \
+  [](auto& draft) -> auto& { \
+    return draft.path;       \
+  }
+
+std::vector<Key> scene_keys() {
+  return {
+      required(key("scene.name", "", any, MEMBER(scene.name), "Name of the case; equals the file's stem.")),
+      otherwise(key("scene.title", "", any, MEMBER(scene.title), "One line for plots and reports."),
+                "scene.name"),
+      scoped(key("scene.dimensions", "-", Range{.lower = 2, .upper = 3}, MEMBER(scene.dimensions), "2 or 3."),
+             Scope::setup),
+      required(
+          key("tank.size", "m", positive, MEMBER(tank_size), "Inner size [x, y] in 2D, [x, y, z] in 3D.")),
+      otherwise(
+          key("tank.depth", "m", positive, MEMBER(depth), "2D only: depth that results are stated for."),
+          "1"),
+      key("tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity), "Acts against y."),
+      required(key("grid.dx", "m", positive, MEMBER(dx), "Cell size in x; divides the tank's size.")),
+      otherwise(key("grid.dy", "m", positive, MEMBER(dy), "Cell size in y."), "grid.dx"),
+      otherwise(key("grid.dz", "m", positive, MEMBER(dz), "3D only: cell size in z."), "grid.dx"),
+  };
+}
+
+// The keys of one side; those of the first side stand for all in the documentation.
+std::vector<Key> side_keys(int side) {
+  const Words<SideWord> side_words{{"no-slip", SideWord::no_slip},
+                                   {"slip", SideWord::slip},
+                                   {"open", SideWord::open},
+                                   {"periodic", SideWord::periodic}};
+  const Words<WallKind> fluid_words{{"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}};
+  const Words<WallKind> solid_words{
+      {"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}, {"coulomb", WallKind::coulomb}};
+  const std::string name = "walls." + std::string(side_names[side]);
+  const auto input = [side](auto member) {
+    return [ side, member ](auto& draft) -> auto& {
+      return member(draft.sides[side]);
+    };
+  };
+  std::vector<Key> list{
+      otherwise(
+          choice(
+              name, side_words, input(MEMBER(word)),
+              "Both phases alike; \"open\" for the top only; \"periodic\" with its opposite. SIDE is left, "
+              "right, bottom, top, front, back (the last two in 3D only), or all for the rest."),
+          side == side_all ? "\"no-slip\"" : "walls.all"),
+      otherwise(choice(name + ".fluid", fluid_words, input(MEMBER(fluid)), "Gas and liquid at this side."),
+                "\"no-slip\""),
+      otherwise(
+          choice(name + ".solid", solid_words, input(MEMBER(solid)),
+                 "Grains at this side; \"coulomb\": tangential stress at most solid_friction times P_s."),
+          "\"no-slip\""),
+      key(name + ".solid_friction", "-", not_negative, input(MEMBER(solid_friction)),
+          "mu_w; with solid = \"coulomb\" only."),
+      otherwise(
+          key(name + ".velocity", "m/s", any, input(MEMBER(velocity)), "Of the wall, in its own plane."),
+          "at rest"),
+  };
+  for (Key& k : list) k.documented = side == 0;
+  return list;
+}
+
+std::vector<Key> material_keys() {
+  return {
+      required(key("gas.density", "kg/m3", positive, MEMBER(scene.gas.density), "rho_g.")),
+      required(key("gas.viscosity", "Pa s", not_negative, MEMBER(scene.gas.viscosity), "mu_g.")),
+      required(key("liquid.density", "kg/m3", positive, MEMBER(scene.liquid.density), "rho_l.")),
+      required(key("liquid.viscosity", "Pa s", not_negative, MEMBER(scene.liquid.viscosity), "mu_l.")),
+      key("liquid.level", "m", positive, MEMBER(level),
+          "Liquid fills the tank up to here, the bed's pores included."),
+      key("liquid.box.origin", "m", not_negative, MEMBER(box_origin), "Lower corner of a box of liquid."),
+      key("liquid.box.size", "m", positive, MEMBER(box_size), "Size of that box."),
+      required(key("solid.density", "kg/m3", positive, MEMBER(scene.solid.density), "rho_s.")),
+      required(key("solid.diameter", "m", positive, MEMBER(scene.solid.diameter), "d_s.")),
+      key("solid.restitution", "-", share, MEMBER(scene.solid.restitution), "e0 of eq (18)."),
+      required(
+          key("solid.friction", "-", not_negative, MEMBER(scene.solid.friction), "eta_s = tan(theta_s).")),
+  };
+}
+
+std::vector<Key> contact_keys() {
+  return {
+      key("contact.stiffness", "Pa", positive, MEMBER(scene.contact.stiffness), "K of (13)."),
+      key("contact.exponent", "-", positive, MEMBER(scene.contact.exponent), "chi of (13)."),
+      key("contact.dilatancy_factor", "-", not_negative, MEMBER(scene.contact.dilatancy_factor),
+          "a' of (15)."),
+      key("contact.dilatancy_exponent", "-", positive, MEMBER(scene.contact.dilatancy_exponent),
+          "delta of (15)."),
+      key("contact.dense_solid_fraction", "-", part, MEMBER(scene.contact.dense_solid_fraction),
+          "f_s0 of (15); at most solid_fraction_max."),
+      key("contact.solid_fraction_min", "-", part, MEMBER(scene.contact.solid_fraction_min),
+          "f_s,min, random loose packing; below solid_fraction_max."),
+      key("contact.solid_fraction_max", "-", part, MEMBER(scene.contact.solid_fraction_max), "f_s,max."),
+      key("contact.regularisation", "s", positive, MEMBER(scene.contact.regularisation), "n of (17)."),
+  };
+}
+
+std::vector<Key> bed_keys() {
+  const Words<BedPlace> places{
+      {"floor", BedPlace::floor}, {"on-water", BedPlace::on_water}, {"floating", BedPlace::floating}};
+  const Range angle{.lower = 0.0, .upper = 90.0, .lower_open = true};
+  return {
+      key("bed.x", "m", not_negative, MEMBER(bed.x), "Where the bed begins."),
+      required(key("bed.length", "m", positive, MEMBER(bed.length), "l0, along x.")),
+      required(key("bed.height", "m", positive, MEMBER(bed.height), "h0.")),
+      required(key("bed.solid_fraction", "-", part, MEMBER(bed.solid_fraction),
+                   "Initial packing; at most contact.solid_fraction_max.")),
+      number_or_word(
+          "bed.y", "m", not_negative, places, MEMBER(bed.y),
+          "Bottom of the bed: on the floor, at the liquid's level, or so deep that the immersed share is "
+          "rho_s/rho_l."),
+      key("bed.slope", "degrees", angle, MEMBER(bed.slope),
+          "Of the front face: 90 is a box, less a heap that meets its base at x + length."),
+      otherwise(key("bed.z", "m", not_negative, MEMBER(bed.z), "3D only: where the bed begins in z."), "0"),
+      otherwise(key("bed.width", "m", positive, MEMBER(bed.width), "3D only: along z."), "the tank's"),
+      otherwise(
+          key("gate.position", "m", positive, MEMBER(gate_position), "x of the plate that holds the bed."),
+          "the bed's front"),
+      required(key("gate.speed", "m/s", positive, MEMBER(gate_speed), "Upwards, from t = 0.")),
+  };
+}
+
+std::vector<Key> time_keys() {
+  const std::string unit = "time.unit";
+  return {
+      required(key("time.end", unit, positive, MEMBER(times.end), "Length of the run.")),
+      choice("time.unit", Words<TimeUnit>{{"s", TimeUnit::second}, {"column", TimeUnit::column}},
+             MEMBER(times.unit),
+             "Unit of time.end and of [output]'s times: seconds, or sqrt(h0/g) of the bed."),
+      scoped(key("time.hold", "s", not_negative, MEMBER(times.hold),
+                 "Held behind the closed gate before t = 0."),
+             Scope::setup),
+      otherwise(key("output.series_interval", unit, positive, MEMBER(times.series_interval),
+                    "Between rows of series.csv."),
+                "time.end / 200"),
+      otherwise(
+          key("output.field_times", unit, not_negative, MEMBER(times.field_times),
+              "When fields are written, ascending; the end is added. An end that an override or a derived "
+              "case brings forward drops the later ones."),
+          "0 and the end"),
+      key("output.field_interval", unit, positive, MEMBER(times.field_interval), "Instead of field_times."),
+      key("output.checkpoint_interval", "s", not_negative, MEMBER(times.checkpoint_interval),
+          "Wall-clock time between checkpoints; 0: at the end and on failure only."),
+  };
+}
+
+std::vector<Key> model_keys() {
+  const Words<TemperatureModel> temperatures{{"transported", TemperatureModel::transported},
+                                             {"algebraic", TemperatureModel::algebraic},
+                                             {"off", TemperatureModel::off}};
+  return {
+      key("model.drag", "", any, MEMBER(scene.model.drag), "Drag, (8) and (9)."),
+      key("model.les", "", any, MEMBER(scene.model.les), "Subgrid viscosity (10)."),
+      choice("model.granular_temperature", temperatures, MEMBER(scene.model.granular_temperature), "Eq (7)."),
+      key("model.pressure_work", "", any, MEMBER(scene.model.pressure_work), "-P_s^K div u_s in (7)."),
+      key("model.dilatancy_pressure", "", any, MEMBER(scene.model.dilatancy_pressure), "P_s^EF, (14)."),
+      key("model.kinetic_viscosity", "", any, MEMBER(scene.model.kinetic_viscosity),
+          "mu_s^K and zeta_s^K, (20), (21)."),
+      key("model.contact_friction", "", any, MEMBER(scene.model.contact_friction), "tau_s^E, (17)."),
+      key("model.colour", "", any, MEMBER(scene.model.colour), "Colour of the solid, (25)."),
+  };
+}
+
+std::vector<Key> numerics_keys() {
+  const Words<SolidFlux> fluxes{{"upwind", SolidFlux::upwind}, {"limited", SolidFlux::limited}};
+  const Words<InterfaceScheme> schemes{{"cicsam", InterfaceScheme::cicsam},
+                                       {"upwind", InterfaceScheme::upwind}};
+  return {
+      key("numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
+          MEMBER(scene.numerics.cfl), "Convective Courant number of a step."),
+      key("numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max), "Longest step."),
+      key("numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
+          "A refused step that would be shorter ends the run; at most dt_max."),
+      choice("numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
+             "Flux of f_s: first order (the paper), or second order, bounded."),
+      choice("numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
+             "Flux of alpha in (24)."),
+      key("numerics.volume_tolerance", "-", part, MEMBER(scene.numerics.volume_tolerance),
+          "Largest volume error of a cell in one step, as a share of the cell."),
+      key("numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),
+          "Residual reduction of one linear solve inside Newton."),
+      key("numerics.newton_max", "-", Range{.lower = 1, .upper = 1000}, MEMBER(scene.numerics.newton_max),
+          "Most Newton iterations of a step."),
+  };
+}
+
+std::vector<Key> reference_keys() {
+  const Words<ReferenceFloor> floors{{"rough", ReferenceFloor::rough}, {"smooth", ReferenceFloor::smooth}};
+  const Words<ReferenceRelease> releases{{"gate", ReferenceRelease::gate},
+                                         {"instant", ReferenceRelease::instant}};
+  const Range poisson{.lower = -1.0, .upper = 0.5, .lower_open = true, .upper_open = true};
+  return {
+      required(
+          key("reference.cell", "m", positive, MEMBER(reference.settings.cell), "Edge of a fluid cell.")),
+      key("reference.fluid_dt", "s", positive, MEMBER(reference.settings.fluid_dt), "Fluid step."),
+      key("reference.dt", "s", positive, MEMBER(reference.settings.dt), "DEM step; at most fluid_dt."),
+      otherwise(key("reference.slice_depth", "m", positive, MEMBER(reference.slice_depth),
+                    "Depth of the slice; required in 2D, 2D only."),
+                "the tank's (3D)"),
+      key("reference.seeds", "-", not_negative, MEMBER(reference.settings.seeds),
+          "One run per seed; their spread is the reference's uncertainty."),
+      choice("reference.floor", floors, MEMBER(reference.settings.floor),
+             "Covered with frozen beads, or a plane."),
+      otherwise(choice("reference.release", releases, MEMBER(reference.release),
+                       "At t = 0 the gate rises at gate.speed, or is gone."),
+                "\"gate\" with a [gate], else \"instant\""),
+      otherwise(key("reference.hold", "s", not_negative, MEMBER(reference.hold),
+                    "Behind the closed gate under the final contact law, before t = 0."),
+                fmt::format("{} with a [gate], else 0", ReferenceSettings{}.hold)),
+      key("reference.young", "Pa", positive, MEMBER(reference.settings.young),
+          "Young's modulus of the beads."),
+      key("reference.poisson", "-", poisson, MEMBER(reference.settings.poisson),
+          "Poisson's ratio of the beads."),
+      otherwise(
+          key("reference.bead_friction", "-", not_negative, MEMBER(reference.bead_friction), "Bead on bead."),
+          "solid.friction"),
+      key("reference.bead_rolling_friction", "-", not_negative,
+          MEMBER(reference.settings.bead_rolling_friction), "Bead on bead."),
+      otherwise(
+          key("reference.bead_restitution", "-", share, MEMBER(reference.bead_restitution), "Bead on bead."),
+          "solid.restitution"),
+      otherwise(
+          key("reference.wall_friction", "-", not_negative, MEMBER(reference.wall_friction), "Bead on wall."),
+          "reference.bead_friction"),
+      otherwise(key("reference.packing", "-", part, MEMBER(reference.packing), "Solid fraction to prepare."),
+                "bed.solid_fraction"),
+      key("reference.preparation_friction", "-", not_negative,
+          MEMBER(reference.settings.preparation_friction),
+          "Bead on bead while the bed settles: sets the packing."),
+      key("reference.preparation_rolling_friction", "-", not_negative,
+          MEMBER(reference.settings.preparation_rolling_friction), "Likewise."),
+  };
+}
+
+#undef MEMBER
+
+std::vector<Key> all_keys() {
+  std::vector<Key> all;
+  const auto add = [&](std::vector<Key> list) {
+    for (Key& k : list) {
+      if (k.scope == Scope::unset) k.scope = find_table(k.table())->scope;
+      all.push_back(std::move(k));
+    }
+  };
+  add(scene_keys());
+  for (int side = 0; side <= side_all; ++side) add(side_keys(side));
+  add(material_keys());
+  add(contact_keys());
+  add(bed_keys());
+  add(time_keys());
+  add(model_keys());
+  add(numerics_keys());
+  add(reference_keys());
+  // What is printed under one heading must stand together.
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Key& a, const Key& b) { return find_table(a.table()) < find_table(b.table()); });
+  return all;
+}
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = std::exchange(row[0], static_cast<int>(i));
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replace}));
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+const std::vector<Table>& tables() {
+  static const std::vector<Table> list{
+      {"scene", Scope::label, false, "What the case is called."},
+      {"tank", Scope::setup, false, "The box that holds everything."},
+      {"grid", Scope::run, false, "Uniform cells."},
+      {"walls", Scope::setup, false,
+       "What each side of the tank does, as one word or as a table of its own."},
+      {"gas", Scope::setup, false, "The gas."},
+      {"liquid", Scope::setup, true, "The liquid; a case may have none."},
+      {"solid", Scope::setup, true, "The grains; a case may have none."},
+      {"contact", Scope::model, false, "Enduring contact, (13)-(17); the defaults are the paper's."},
+      {"bed", Scope::setup, true, "Where the grains are at the start; needs [solid]."},
+      {"gate", Scope::setup, true, "A vertical plate that holds the bed; needs [bed]."},
+      {"time", Scope::run, false, "Length of the run."},
+      {"model", Scope::model, false, "What is modelled; each switch removes one physical part."},
+      {"numerics", Scope::run, false, "How it is computed."},
+      {"output", Scope::run, false, "What is written, and when."},
+      {"reference", Scope::reference, true, "The DEM-VOF run of the same scene; needs [bed]."},
+  };
+  return list;
+}
+
+const Table* find_table(std::string_view name) {
+  const auto found = std::ranges::find(tables(), name, &Table::name);
+  return found == tables().end() ? nullptr : &*found;
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> list = all_keys();
+  return list;
+}
+
+const Key* find_key(std::string_view name) {
+  const auto found = std::ranges::find(keys(), name, &Key::name);
+  return found == keys().end() ? nullptr : &*found;
+}
+
+std::string nearest_key(std::string_view name) {
+  const auto distance = [&](const Key& k) { return edit_distance(name, k.name); };
+  const auto best = std::ranges::min_element(keys(), {}, distance);
+  const int near = std::max(2, static_cast<int>(name.size()) / 3);
+  return distance(*best) <= near ? best->name : "";
+}
+
+}  // namespace granvof::case_file

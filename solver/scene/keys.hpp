@@ -1,0 +1,58 @@
+// The keys of a case: the one place that says for each its name, type, unit, range, default and meaning.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/scene/case_text.hpp"
+#include "solver/scene/draft.hpp"
+
+namespace granvof::case_file {
+
+// What a key is about decides which hash of the scene it enters.
+enum class Scope {
+  unset,      // while the table is built: the scope of its [table]
+  label,      // names: in no hash
+  setup,      // geometry, materials, walls: in both hashes
+  model,      // the continuum's closures: in Scene::hash
+  reference,  // settings of the DEM-VOF reference: in both hashes
+  run         // grid, numerics, length, output: in no hash
+};
+
+struct Table {
+  std::string name;
+  Scope scope = Scope::setup;
+  bool optional = false;  // a case may leave it out; its required keys are required only where it stands
+  std::string help;
+};
+
+struct Key {
+  std::string name;       // "solid.friction"
+  std::string type;       // "number", "integer", ...
+  std::string unit;       // "m", "-" for a pure number, "" where there is none
+  std::string allowed;    // "a number >= 0"
+  std::string otherwise;  // what holds where the key is absent; empty: the key is required
+  std::string help;
+  Scope scope = Scope::unset;
+  bool documented = true;  // false for the sides after the first: they share one row
+
+  // Takes the value into the draft; false where type or range do not fit.
+  std::function<bool(Draft&, const Value&)> set;
+  // The value as canonical TOML; empty where there is none.
+  std::function<std::string(const Draft&)> get;
+
+  bool required() const { return otherwise.empty(); }
+  std::string table() const { return name.substr(0, name.find('.')); }
+};
+
+const std::vector<Table>& tables();
+const std::vector<Key>& keys();
+const Key* find_key(std::string_view name);
+const Table* find_table(std::string_view name);
+
+// The known key nearest to an unknown one, by edit distance; empty where none is near.
+std::string nearest_key(std::string_view name);
+
+}  // namespace granvof::case_file
