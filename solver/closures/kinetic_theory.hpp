@@ -26,9 +26,11 @@ inline double kinetic_bulk_viscosity(double f_s, double theta, double e, double 
   return bulk_to_shear_viscosity * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
 }
 
+inline constexpr double conductivity_to_viscosity = 5.0 / 2.0;  // kappa_s^K / mu_s^K, eqs (20), (22)
+
 // kappa_s^K [Pa s], eq (22); the flux uses f_s kappa_s^K (model correction 11).
 inline double conductivity(double f_s, double theta, double e, double g0, double rho_s, double d_s) {
-  return 2.5 * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
+  return conductivity_to_viscosity * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
 }
 
 // gamma_s^K / Theta^(3/2) [kg/m4]: the collisional part of eq (23), which does not depend on div u_s.
@@ -41,6 +43,14 @@ inline double dissipation(double f_s, double theta, double e, double g0, double 
                           double div_u_s) {
   return collisional_dissipation_rate(f_s, e, g0, rho_s, d_s) * theta * std::sqrt(theta) -
          3.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * theta * div_u_s;
+}
+
+// The positive root w of a w^2 + b w = c; a >= 0, c >= 0, not both a and b zero. Written so that nothing cancels:
+// w = 2c / (b + sqrt(b^2 + 4ac)) for b >= 0. Returns 0 where c = 0 and b >= 0.
+inline double positive_root(double a, double b, double c) {
+  const double root = std::sqrt(b * b + 4.0 * a * c);
+  if (b >= 0.0) return b + root > 0.0 ? 2.0 * c / (b + root) : 0.0;
+  return a > 0.0 ? (root - b) / (2.0 * a) : 0.0;
 }
 
 }  // namespace granvof::closures

@@ -1,0 +1,57 @@
+#include "solver/grid/grid.hpp"
+
+namespace granvof {
+
+Grid::Grid(const Scene& scene) {
+  dim = scene.dimensions;
+  h = scene.grid.spacing;
+  std::array<int, 3> n = scene.grid.cells, ghost{};
+  std::array<bool, 3> periodic{};
+  for (int d = 0; d < dim; ++d) {
+    ghost[d] = ghost_layers;
+    periodic[d] = scene.sides[2 * d].kind == SideKind::periodic;
+  }
+  if (dim == 2) {
+    n[2] = 1;
+    h[2] = scene.tank[2];
+  }
+  cells = Layout::make(n, ghost, periodic);
+  cell_volume = h[0] * h[1] * h[2];
+  open_top = scene.sides[top].kind == SideKind::open;
+}
+
+Range Grid::cells_and_ghosts(int layers) const {
+  Range r = all_cells();
+  for (int d = 0; d < dim; ++d) {
+    r.lower[d] -= layers;
+    r.upper[d] += layers;
+  }
+  return r;
+}
+
+Range Grid::inner_faces(int d) const {
+  Range r = all_cells();
+  if (!cells.periodic[d]) r.lower[d] = 1;
+  return r;
+}
+
+Range Grid::fluid_faces(int d) const {
+  Range r = inner_faces(d);
+  if (d == 1 && open_top) r.upper[d] += 1;
+  return r;
+}
+
+Range Grid::all_faces(int d) const {
+  Range r = all_cells();
+  r.upper[d] += 1;
+  return r;
+}
+
+Range Grid::edges(int d, int e) const {
+  Range r = all_cells();
+  r.upper[d] += 1;
+  r.upper[e] += 1;
+  return r;
+}
+
+}  // namespace granvof

@@ -1,0 +1,39 @@
+// The uniform staggered Cartesian grid of a run and its local box.
+//
+// Scalars live at cell centres; velocity component d lives on the faces normal to d. Face (i, j, k) of
+// direction d is the LOWER face of cell (i, j, k), so that all fields share one layout and a neighbour is one
+// stride away.
+#pragma once
+
+#include "solver/grid/for_each.hpp"
+#include "solver/grid/layout.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace granvof {
+
+inline constexpr int ghost_layers = 2;  // the widest stencil (limited upwind, CICSAM) looks two cells upwind
+
+struct Grid {
+  int dim = 2;               // computed directions; a 2D grid stores one layer in z and never touches it
+  Layout cells;              // layout shared by cell and face fields
+  Vec3 h{};                  // spacing [m]
+  double cell_volume = 0.0;  // [m3]; in 2D times the tank's depth
+  bool open_top = false;     // the uppermost y-faces are open to the fluid
+
+  explicit Grid(const Scene& scene);
+
+  std::ptrdiff_t stride(int d) const { return cells.stride[d]; }
+  Range all_cells() const { return Range::all(cells); }
+  // Cells and `layers` ghosts in every computed direction.
+  Range cells_and_ghosts(int layers) const;
+  // Faces of direction d that are not on a closed side: where the solid velocity is unknown.
+  Range inner_faces(int d) const;
+  // The same for the fluid, the faces of an open top included.
+  Range fluid_faces(int d) const;
+  // Edges of the plane (d, e), both box boundaries included.
+  Range edges(int d, int e) const;
+  // Every face of direction d, both box boundaries included.
+  Range all_faces(int d) const;
+};
+
+}  // namespace granvof

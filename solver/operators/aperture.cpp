@@ -1,0 +1,35 @@
+#include "solver/operators/aperture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granvof {
+
+Aperture::Aperture(const Grid& grid, const Scene& scene) : grid_(grid), gate_(scene.gate), open_(grid, 0.0) {
+  for (int d = 0; d < grid.dim; ++d) {
+    Field& open = open_[d];
+    // Periodic faces carry their copies in the ghosts, so the range includes both ends there.
+    Range r = grid.cells.periodic[d] ? grid.all_faces(d) : grid.fluid_faces(d);
+    for_each(grid.cells, r, [&](std::ptrdiff_t c) { open[c] = 1.0; });
+  }
+  if (gate_) {
+    const int n = grid.cells.n[0];
+    gate_face_ = std::clamp(static_cast<int>(std::lround(gate_->position / grid.h[0])), 1, n - 1);
+    update(-1.0);
+  }
+}
+
+bool Aperture::update(double time) {
+  if (!gate_) return false;
+  // A row is free once the lower edge has passed its centre.
+  const double edge = gate_->speed * std::max(time, 0.0);
+  const int rows = std::clamp(static_cast<int>(std::floor(edge / grid_.h[1] + 0.5)), 0, grid_.cells.n[1]);
+  if (rows == open_rows_) return false;
+  open_rows_ = rows;
+  const Layout& l = grid_.cells;
+  for (int k = 0; k < l.n[2]; ++k)
+    for (int j = 0; j < l.n[1]; ++j) open_[0][l.index(gate_face_, j, k)] = j < rows ? 1.0 : 0.0;
+  return true;
+}
+
+}  // namespace granvof

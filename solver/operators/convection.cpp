@@ -1,0 +1,62 @@
+#include "solver/operators/convection.hpp"
+
+#include "solver/operators/limiter.hpp"
+
+namespace granvof {
+namespace {
+
+// Upwind difference of v along stride s at c for a carrier of sign w; limited: flux differences of van Leer's
+// reconstruction, so that a smooth v is differenced to second order and no new extremum appears.
+inline double upwind_difference(const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+  return w > 0.0 ? v[c] - v[c - s] : v[c + s] - v[c];
+}
+
+inline double limited_difference(const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+  const double back = v[c] - v[c - s], ahead = v[c + s] - v[c];
+  if (w > 0.0) {
+    const double further = v[c - s] - v[c - 2 * s];
+    return back + 0.5 * van_leer(back, ahead) - 0.5 * van_leer(further, back);
+  }
+  const double further = v[c + 2 * s] - v[c + s];
+  return ahead - 0.5 * van_leer(back, ahead) + 0.5 * van_leer(ahead, further);
+}
+
+template <typename Difference>
+void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces, Difference difference,
+                Field& acceleration) {
+  const double* v = u[d].data();
+  double* out = acceleration.data();
+  const std::ptrdiff_t sd = grid.stride(d);
+  for (int e = 0; e < grid.dim; ++e) {
+    const std::ptrdiff_t s = grid.stride(e);
+    const double inv_h = 1.0 / grid.h[e];
+    const double* carrier = u[e].data();
+    if (e == d) {
+      for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
+        const double w = carrier[c];
+        out[c] -= w * inv_h * difference(v, c, s, w);
+      });
+    } else {
+      // the carrier component, averaged to the face of d
+      for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
+        const double w = 0.25 * (carrier[c] + carrier[c - sd] + carrier[c + s] + carrier[c + s - sd]);
+        out[c] -= w * inv_h * difference(v, c, s, w);
+      });
+    }
+  }
+}
+
+}  // namespace
+
+void convective_acceleration(const Grid& grid, const FaceField& u, int d, const Range& faces, bool limited,
+                             Field& acceleration) {
+  double* out = acceleration.data();
+  for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
+  if (limited) {
+    accumulate(grid, u, d, faces, limited_difference, acceleration);
+  } else {
+    accumulate(grid, u, d, faces, upwind_difference, acceleration);
+  }
+}
+
+}  // namespace granvof

@@ -1,0 +1,289 @@
+#include "solver/operators/coupled_pressure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/closures/solid_pressure.hpp"
+
+namespace granvof {
+namespace {
+
+// Globalisation of Newton's method on the stiff law P_s(f_s): dense starts (f_s = 0.61 against a weight that
+// 0.574 carries) cycle without it.
+constexpr double largest_move = 0.02;  // of a linearisation point in one iteration [-]
+constexpr int damping_starts = 5;      // iteration from which moves are damped
+constexpr double damping = 0.3;
+constexpr int upwinding_settles = 4;  // iteration from which the upwind directions are kept
+// A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope [Pa]:
+// where grains do not touch, a pressure error of volume_tolerance times this is meaningless (0.01 Pa).
+constexpr double slope_that_matters = 1e4;
+
+}  // namespace
+
+CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                                 const Communicator& communicator)
+    : grid_(grid),
+      scene_(scene),
+      boundary_(boundary),
+      solver_(grid.cells, communicator),
+      fraction_(scene.numerics.solid_flux),
+      us_by_pc_(grid),
+      us_by_ps_(grid),
+      uc_by_pc_(grid),
+      uc_by_ps_(grid),
+      k11_(grid),
+      k12_(grid),
+      k21_(grid),
+      k22_(grid),
+      f_upwind_s_(grid),
+      f_upwind_c_(grid),
+      us_(grid),
+      uc_(grid),
+      m11_(grid),
+      m22_(grid),
+      rhs1_(grid),
+      rhs2_(grid),
+      dp_c_(grid),
+      dp_s_(grid),
+      point_f_(grid),
+      point_p_(grid),
+      slope_(grid),
+      f_new_(grid) {}
+
+// Response of both velocities to both pressure increments on every face:
+//   m_s du_s = -f_s grad dP_c - grad dP_s - beta (du_s - du_c),  m_c du_c = -f_c grad dP_c + beta (du_s -
+//   du_c),
+// m = (phase mass) / dt. Where a face holds no grains both phases move as one.
+void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const FaceField& beta,
+                                   const Aperture& aperture) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* f = inertia.f_s[d].data();
+    const double* solid = inertia.solid[d].data();
+    const double* fluid = inertia.fluid[d].data();
+    const double* b = beta[d].data();
+    const double* open = aperture[d].data();
+    double *s_c = us_by_pc_[d].data(), *s_s = us_by_ps_[d].data();
+    double *c_c = uc_by_pc_[d].data(), *c_s = uc_by_ps_[d].data();
+    for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t i) {
+      const double f_s = f[i], f_c = 1.0 - f_s;
+      const double m_s = solid[i] / dt, m_c = fluid[i] / dt;
+      const bool grains = f_s >= least_solid_fraction;
+      const double together = open[i] / (m_s + m_c);
+      const double inv_det = open[i] / (grains ? m_s * m_c + b[i] * (m_s + m_c) : 1.0);
+      s_c[i] = grains ? inv_det * ((m_c + b[i]) * f_s + b[i] * f_c) : together;
+      s_s[i] = grains ? inv_det * (m_c + b[i]) : 0.0;
+      c_c[i] = grains ? inv_det * (b[i] * f_s + (m_s + b[i]) * f_c) : together;
+      c_s[i] = grains ? inv_det * b[i] : 0.0;
+    });
+    if (d == 1 && grid_.open_top) {
+      // grains stop at the open top, the fluid passes
+      Range row = grid_.fluid_faces(1);
+      row.lower[1] = grid_.cells.n[1];
+      for_each(grid_.cells, row, [=](std::ptrdiff_t i) {
+        const double f_c = 1.0 - f[i];
+        c_c[i] = f_c / (fluid[i] / dt + (f[i] >= least_solid_fraction ? b[i] : 0.0));
+        s_c[i] = s_s[i] = c_s[i] = 0.0;
+      });
+    }
+    boundary_.exchange(us_by_pc_[d]);
+    boundary_.exchange(us_by_ps_[d]);
+    boundary_.exchange(uc_by_pc_[d]);
+    boundary_.exchange(uc_by_ps_[d]);
+  }
+}
+
+// Fractions the fluxes carry, for the present directions of flow, and the flux response K of every face.
+void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_directions) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const Range faces = grid_.fluid_faces(d);
+    if (new_directions) {
+      fraction_.face_values(grid_, f_s, us_[d], d, dt, faces, f_upwind_s_[d]);
+      fraction_.face_values(grid_, f_s, uc_[d], d, dt, faces, f_upwind_c_[d]);
+      boundary_.exchange(f_upwind_s_[d]);
+      boundary_.exchange(f_upwind_c_[d]);
+    }
+    const double inv_h2 = 1.0 / (grid_.h[d] * grid_.h[d]);
+    const double *phi_s = f_upwind_s_[d].data(), *phi_c = f_upwind_c_[d].data();
+    const double *s_c = us_by_pc_[d].data(), *s_s = us_by_ps_[d].data();
+    const double *c_c = uc_by_pc_[d].data(), *c_s = uc_by_ps_[d].data();
+    double *k11 = k11_[d].data(), *k12 = k12_[d].data(), *k21 = k21_[d].data(), *k22 = k22_[d].data();
+    for_each(grid_.cells, faces, [=](std::ptrdiff_t i) {
+      k21[i] = inv_h2 * phi_s[i] * s_c[i];
+      k22[i] = inv_h2 * phi_s[i] * s_s[i];
+      k11[i] = k21[i] + inv_h2 * (1.0 - phi_c[i]) * c_c[i];
+      k12[i] = k22[i] + inv_h2 * (1.0 - phi_c[i]) * c_s[i];
+    });
+  }
+}
+
+// Right-hand sides of continuity and of the linearised solid balance
+//   f* + (P_s - P*) / J = f^n - dt div(f_s u_s), with u = predicted velocities.
+void CoupledPressure::set_balances(double dt, const Field& f_s, const Field& p_s,
+                                   const FaceField& us_predicted, const FaceField& uc_predicted) {
+  double *r1 = rhs1_.data(), *r2 = rhs2_.data(), *m1 = m11_.data(), *m2 = m22_.data();
+  const double *f = f_s.data(), *p = p_s.data();
+  const double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
+  const double inv_dt = 1.0 / dt;
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    m1[c] = 0.0;
+    m2[c] = inv_dt / slope[c];
+    r1[c] = 0.0;
+    r2[c] = (f[c] - pf[c]) * inv_dt + (pp[c] - p[c]) * m2[c];
+  });
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *phi_s = f_upwind_s_[d].data(), *phi_c = f_upwind_c_[d].data();
+    const double *us = us_predicted[d].data(), *uc = uc_predicted[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h = 1.0 / grid_.h[d];
+    for_each(grid_.cells, [=](std::ptrdiff_t c) {
+      const double solid = (phi_s[c + s] * us[c + s] - phi_s[c] * us[c]) * inv_h;
+      const double fluid = ((1.0 - phi_c[c + s]) * uc[c + s] - (1.0 - phi_c[c]) * uc[c]) * inv_h;
+      r1[c] -= solid + fluid;
+      r2[c] -= solid;
+    });
+  }
+  if (grid_.open_top) {
+    // P_c = 0 half a cell above the uppermost cells: twice the face coefficient to a known zero
+    Range row = grid_.all_cells();
+    row.lower[1] = grid_.cells.n[1] - 1;
+    const double* k11 = k11_[1].data();
+    const std::ptrdiff_t s = grid_.stride(1);
+    for_each(grid_.cells, row, [=](std::ptrdiff_t c) { m1[c] = 2.0 * k11[c + s]; });
+  }
+}
+
+// Velocities from the increments, fluxes, and the solid fraction the fluxes lead to.
+void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_predicted,
+                              const FaceField& uc_predicted, FaceField& flux_s, FaceField& flux_c) {
+  boundary_.fill_pressure(dp_c_);
+  boundary_.fill_scalar(dp_s_);
+  const double *pc = dp_c_.data(), *ps = dp_s_.data();
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h = 1.0 / grid_.h[d];
+    const double *s_c = us_by_pc_[d].data(), *s_s = us_by_ps_[d].data();
+    const double *c_c = uc_by_pc_[d].data(), *c_s = uc_by_ps_[d].data();
+    const double *us_p = us_predicted[d].data(), *uc_p = uc_predicted[d].data();
+    const double *phi_s = f_upwind_s_[d].data(), *phi_c = f_upwind_c_[d].data();
+    double *us = us_[d].data(), *uc = uc_[d].data(), *fs = flux_s[d].data(), *fc = flux_c[d].data();
+    for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+      const double grad_c = (pc[c] - pc[c - s]) * inv_h, grad_s = (ps[c] - ps[c - s]) * inv_h;
+      us[c] = us_p[c] - s_c[c] * grad_c - s_s[c] * grad_s;
+      uc[c] = uc_p[c] - c_c[c] * grad_c - c_s[c] * grad_s;
+      fs[c] = phi_s[c] * us[c];
+      fc[c] = (1.0 - phi_c[c]) * uc[c];
+    });
+    boundary_.exchange(us_[d]);
+    boundary_.exchange(uc_[d]);
+    boundary_.exchange(flux_s[d]);
+    boundary_.exchange(flux_c[d]);
+  }
+  const double* f = f_s.data();
+  double* f_new = f_new_.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { f_new[c] = f[c]; });
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* fs = flux_s[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double dt_h = dt / grid_.h[d];
+    for_each(grid_.cells, [=](std::ptrdiff_t c) { f_new[c] -= dt_h * (fs[c + s] - fs[c]); });
+  }
+}
+
+// Takes the law P_s(f_s) and its slope at the linearisation points.
+void CoupledPressure::linearise(const SolidPressureState& law) {
+  const double *theta = law.theta.data(), *e = law.restitution.data(), *pf = point_f_.data();
+  double *pp = point_p_.data(), *slope = slope_.data();
+  const double rho_s = scene_.solid.density;
+  const bool dilatancy = scene_.model.dilatancy_pressure;
+  const Contact& contact = scene_.contact;
+  for_each(grid_.cells, [=, &contact](std::ptrdiff_t c) {
+    const auto p = closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy);
+    pp[c] = p.value;
+    slope[c] = p.slope;
+  });
+}
+
+// Distance of the present solution from the law; moves the linearisation points towards it.
+double CoupledPressure::move_points(int iteration, const SolidPressureState& law, const Field& p_s) {
+  const double *theta = law.theta.data(), *e = law.restitution.data(), *dp = dp_s_.data(),
+               *p_old = p_s.data();
+  const double* f_new = f_new_.data();
+  double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
+  const double rho_s = scene_.solid.density;
+  const bool dilatancy = scene_.model.dilatancy_pressure;
+  const Contact& contact = scene_.contact;
+  const double share = iteration < damping_starts ? 1.0 : damping;
+  const double mismatch = max_over(grid_.cells, grid_.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
+    const auto there = closures::solid_pressure(f_new[c], theta[c], e[c], rho_s, contact, dilatancy);
+    const double p_solved = p_old[c] + dp[c];
+    const double off =
+        std::fabs(there.value - std::max(p_solved, 0.0)) / std::max(there.slope, slope_that_matters);
+    const double move = std::clamp(share * (f_new[c] - pf[c]), -largest_move, largest_move);
+    const double before_f = pf[c], before_p = pp[c];
+    pf[c] = std::max(before_f + move, 0.0);
+    const auto p = closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy);
+    pp[c] = p.value;
+    // Upwards the law stiffens: its tangent at the lower point overshoots, the secant does not.
+    const double secant = move > 1e-12 ? (p.value - before_p) / move : 0.0;
+    slope[c] = std::max({p.slope, secant, closures::least_solid_pressure_slope});
+    return off;
+  });
+  return mismatch;
+}
+
+linear::CoupledSystem CoupledPressure::system() const {
+  linear::CoupledSystem system{};
+  for (int d = 0; d < grid_.dim; ++d) {
+    system.k11[d] = k11_[d].data();
+    system.k12[d] = k12_[d].data();
+    system.k21[d] = k21_[d].data();
+    system.k22[d] = k22_[d].data();
+  }
+  system.m11 = m11_.data();
+  system.m22 = m22_.data();
+  system.rhs1 = rhs1_.data();
+  system.rhs2 = rhs2_.data();
+  return system;
+}
+
+PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPressureState& law,
+                                      const FaceInertia& inertia, const FaceField& beta,
+                                      const Aperture& aperture, FaceField& u_s, FaceField& u_c, Field& p_c,
+                                      Field& p_s, FaceField& flux_s, FaceField& flux_c) {
+  const Numerics& numerics = scene_.numerics;
+  PressureReport report;
+  us_ = u_s;
+  uc_ = u_c;
+  point_f_ = f_s;
+  dp_c_.fill(0.0);
+  dp_s_.fill(0.0);
+  set_response(dt, inertia, beta, aperture);
+  linearise(law);
+  for (int iteration = 0; iteration < numerics.newton_max; ++iteration) {
+    set_fluxes(dt, f_s, iteration < upwinding_settles);
+    set_balances(dt, f_s, p_s, u_s, u_c);
+    const linear::Report r = solver_.solve(system(), dp_c_.data(), dp_s_.data(),
+                                           {numerics.volume_tolerance / dt, numerics.linear_tolerance, 200});
+    report.newton = iteration + 1;
+    report.linear += r.iterations;
+    correct(dt, f_s, u_s, u_c, flux_s, flux_c);
+    report.mismatch = move_points(iteration, law, p_s);
+    report.divergence = r.final * dt;
+    if (!std::isfinite(report.mismatch)) return report;
+    if (r.converged && report.mismatch <= numerics.volume_tolerance) {
+      report.converged = true;
+      break;
+    }
+  }
+  u_s = us_;
+  u_c = uc_;
+  const double *dpc = dp_c_.data(), *dps = dp_s_.data();
+  double *pc = p_c.data(), *ps = p_s.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    pc[c] += dpc[c];
+    ps[c] = std::fmax(ps[c] + dps[c], 0.0);
+  });
+  return report;
+}
+
+}  // namespace granvof

@@ -1,0 +1,72 @@
+// Implicit step of the two pressures: one coupled Newton system for (P_c, P_s).
+//
+// Finds P_c and P_s so that the corrected velocities satisfy continuity (4), div(f_s u_s + f_c u_c) = 0, and
+// the solid volume balance (1) closes with the law P_s = P_s(f_s) at the new level. Drag acts inside the
+// correction: a face's 2x2 system couples both phases' response to both gradients. Elastic waves of the
+// contact pressure (13) and drag therefore do not bound the time step.
+#pragma once
+
+#include <string>
+
+#include "solver/grid/boundary.hpp"
+#include "solver/linear/coupled_solver.hpp"
+#include "solver/operators/aperture.hpp"
+#include "solver/operators/mixture.hpp"
+#include "solver/operators/solid_fraction_flux.hpp"
+
+namespace granvof {
+
+// Cell values that fix P_s(f_s) during one step.
+struct SolidPressureState {
+  const Field& theta;        // granular temperature of the old level [m2/s2]
+  const Field& restitution;  // e of (18) [-]
+};
+
+struct PressureReport {
+  bool converged = false;
+  int newton = 0;           // Newton iterations
+  int linear = 0;           // BiCGSTAB iterations, all Newton iterations together
+  double mismatch = 0.0;    // largest distance of (f_s, P_s) from the law, in solid fraction [-]
+  double divergence = 0.0;  // largest |div(f_s u_s + f_c u_c)| dt [-]
+};
+
+class CoupledPressure {
+ public:
+  CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                  const Communicator& communicator);
+
+  // In: predicted u_s, u_c (old pressure gradients included), old p_c, p_s and f_s with ghosts filled,
+  // inertia and beta on faces. Out: new u_s, u_c on their faces, p_c, p_s, and the volume fluxes per area f_s
+  // u_s and f_c u_c [m/s] through every face that close both balances.
+  PressureReport solve(double dt, const Field& f_s, const SolidPressureState& law, const FaceInertia& inertia,
+                       const FaceField& beta, const Aperture& aperture, FaceField& u_s, FaceField& u_c,
+                       Field& p_c, Field& p_s, FaceField& flux_s, FaceField& flux_c);
+
+ private:
+  void set_response(double dt, const FaceInertia& inertia, const FaceField& beta, const Aperture& aperture);
+  void set_fluxes(double dt, const Field& f_s, bool new_directions);
+  void set_balances(double dt, const Field& f_s, const Field& p_s, const FaceField& us_predicted,
+                    const FaceField& uc_predicted);
+  void correct(double dt, const Field& f_s, const FaceField& us_predicted, const FaceField& uc_predicted,
+               FaceField& flux_s, FaceField& flux_c);
+  void linearise(const SolidPressureState& law);
+  double move_points(int iteration, const SolidPressureState& law, const Field& p_s);
+  linear::CoupledSystem system() const;
+
+  const Grid& grid_;
+  const Scene& scene_;
+  const Boundary& boundary_;
+  linear::CoupledSolver solver_;
+  SolidFractionFlux fraction_;
+
+  // 2x2 response of a face: [du_s; du_c] = -response [grad dP_c; grad dP_s]
+  FaceField us_by_pc_, us_by_ps_, uc_by_pc_, uc_by_ps_;
+  FaceField k11_, k12_, k21_, k22_;    // response of the fluxes (total, solid), divided by h^2
+  FaceField f_upwind_s_, f_upwind_c_;  // fractions the fluxes carry
+  FaceField us_, uc_;                  // velocities of the present iterate
+  Field m11_, m22_, rhs1_, rhs2_, dp_c_, dp_s_;
+  Field point_f_, point_p_, slope_;  // linearisation point of P_s(f_s) in every cell
+  Field f_new_;
+};
+
+}  // namespace granvof

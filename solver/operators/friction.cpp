@@ -1,0 +1,317 @@
+#include "solver/operators/friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/closures/contact_friction.hpp"
+
+namespace granvof {
+namespace {
+
+constexpr double velocity_tolerance = 1e-7;  // [m/s] of a face full of grains
+constexpr double relative_tolerance = 1e-4;
+constexpr int most_iterations = 300;
+constexpr int smoothing = 2;
+
+// Faces of one direction as a box of their own, in the memory of the cells' layout.
+Layout face_layout(const Grid& grid, int d) {
+  Layout l = grid.cells;
+  if (!l.periodic[d]) l.n[d] += 1;
+  return l;
+}
+
+std::vector<Layout> face_layouts(const Grid& grid) {
+  std::vector<Layout> layouts;
+  for (int d = 0; d < grid.dim; ++d) layouts.push_back(face_layout(grid, d));
+  return layouts;
+}
+
+linear::Components pointers(FaceField& f, int dim) {
+  linear::Components p{};
+  for (int d = 0; d < dim; ++d) p[d] = f[d].data();
+  return p;
+}
+
+}  // namespace
+
+Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                   const Communicator& communicator)
+    : grid_(grid),
+      scene_(scene),
+      boundary_(boundary),
+      strain_(grid),
+      mu_(grid),
+      lambda_(grid),
+      divergence_(grid),
+      marked_(grid),
+      solver_(face_layouts(grid), communicator),
+      component_mass_(grid),
+      residual_(grid),
+      correction_(grid) {
+  for (int p = 0; p < (grid.dim == 2 ? 1 : 3); ++p) {
+    mu_edge_[p] = Field(grid);
+    shear_[p] = Field(grid);
+  }
+  for (int d = 0; d < grid.dim; ++d) {
+    multigrid_.emplace_back(face_layout(grid, d), communicator, grid.h);
+    coefficient_[d] = FaceField(grid);
+  }
+}
+
+void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain) {
+  strain_.update(grid_, u_strain);
+  boundary_.fill_scalar(strain_.normal_squared);
+  const double eta = scene_.model.contact_friction ? scene_.solid.friction : 0.0;
+  const double n = scene_.contact.regularisation;
+  const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data();
+  const double* sq = strain_.squared.data();
+  double *mu = mu_.data(), *lambda = lambda_.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    lambda[c] = kinetic[c];
+    mu[c] = kinetic[c];
+    if (p[c] > 0.0) mu[c] += closures::friction_viscosity(p[c], eta, n, std::sqrt(0.5 * sq[c]));
+  });
+  boundary_.fill_scalar(mu_);
+  boundary_.fill_scalar(lambda_);
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const int plane = plane_index(d, e);
+      std::array<const double*, 3> rest{strain_.normal_squared.data(), nullptr, nullptr};
+      int parts = 1;
+      for (int q = 0; q < 3 && grid_.dim == 3; ++q) {
+        if (q == plane) continue;
+        boundary_.fill_scalar(strain_.plane_squared[q]);
+        rest[parts++] = strain_.plane_squared[q].data();
+      }
+      const double* g = strain_.shear[plane].data();
+      double* edge = mu_edge_[plane].data();
+      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+      for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) {
+        const std::array<std::ptrdiff_t, 4> around{c, c - s, c - t, c - s - t};
+        // Only cells in contact count: an average over empty cells would let the bed's surface slide.
+        double pressure = 0.0, square = 0.0, viscosity = 0.0;
+        int contacts = 0;
+        for (const std::ptrdiff_t a : around) {
+          viscosity += 0.25 * kinetic[a];
+          if (p[a] <= 0.0) continue;
+          ++contacts;
+          pressure += p[a];
+          for (int q = 0; q < parts; ++q) square += rest[q][a];
+        }
+        if (contacts > 0) {
+          const double norm = std::sqrt(0.5 * (square / contacts + 0.5 * g[c] * g[c]));
+          viscosity += closures::friction_viscosity(pressure / contacts, eta, n, norm);
+        }
+        edge[c] = viscosity;
+      });
+    }
+  }
+  set_wall_friction(rheology, u_strain);
+}
+
+// Edges on closed sides: none for slip, at most mu_w P_s^E for Coulomb (through a viscosity of the old
+// speed), and the bed's own for no-slip. The operator takes the wall's shear as 2 u_t / h.
+void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_strain) {
+  const double* p = rheology.enduring_pressure.data();
+  for (int d = 0; d < grid_.dim; ++d) {
+    if (grid_.cells.periodic[d]) continue;
+    for (int upper = 0; upper < 2; ++upper) {
+      const Side& side = boundary_.side(d, upper);
+      const bool no_slip = side.kind == SideKind::wall && side.solid.kind == WallKind::no_slip;
+      if (no_slip) continue;
+      const bool coulomb = side.kind == SideKind::wall && side.solid.kind == WallKind::coulomb;
+      const double mu_w = coulomb ? side.solid.friction : 0.0;
+      for (int e = 0; e < grid_.dim; ++e) {
+        if (e == d) continue;
+        Range wall = grid_.edges(d, e);
+        wall.lower[d] = upper ? grid_.cells.n[d] : 0;
+        wall.upper[d] = wall.lower[d] + 1;
+        const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0, t = grid_.stride(e);
+        const double h = grid_.h[d], u_wall = side.velocity[e];
+        const double* v = u_strain[e].data();
+        double* edge = mu_edge_[plane_index(d, e)].data();
+        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
+          const double pressure = 0.5 * (p[c + inside] + p[c + inside - t]);
+          const double speed = std::fabs(v[c + inside] - u_wall);
+          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, velocity_tolerance));
+        });
+      }
+    }
+  }
+}
+
+void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *f = inertia.f_s[d].data(), *open = aperture[d].data();
+    double* m = marked_[d].data();
+    for_each(grid_.cells, grid_.inner_faces(d),
+             [=](std::ptrdiff_t c) { m[c] = f[c] >= least_solid_fraction ? open[c] : 0.0; });
+    boundary_.exchange(marked_[d]);
+  }
+}
+
+// A face without grains carries the fluid's velocity: a contact stress on its edges would glue the bed's
+// surface to the water above.
+void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const double *fd = inertia.f_s[d].data(), *fe = inertia.f_s[e].data();
+      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+      double* edge = mu_edge_[plane_index(d, e)].data();
+      for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) {
+        const double least = std::fmin(std::fmin(fd[c], fd[c - t]), std::fmin(fe[c], fe[c - s]));
+        edge[c] = least >= least_solid_fraction ? edge[c] : 0.0;
+      });
+    }
+  }
+}
+
+// Own diffusion of every component; couplings to faces that are known go to the diagonal.
+void Friction::set_preconditioner(const FaceField& mass) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const Layout layout = face_layout(grid_, d);
+    const double *m = marked_[d].data(), *own = mass[d].data(), *mu = mu_.data(), *lambda = lambda_.data();
+    double* diagonal = component_mass_[d].data();
+    for_each(layout, [=](std::ptrdiff_t c) { diagonal[c] = m[c] * own[c]; });
+    linear::Faces faces{};
+    for (int e = 0; e < grid_.dim; ++e) {
+      const std::ptrdiff_t s = grid_.stride(e);
+      const double inv_h2 = 1.0 / (grid_.h[e] * grid_.h[e]);
+      const double* edge = e == d ? nullptr : mu_edge_[plane_index(d, e)].data();
+      double* a = coefficient_[d][e].data();
+      if (e == d) {
+        for_each(layout, [=](std::ptrdiff_t c) {
+          const double behind = (2.0 * mu[c - s] + lambda[c - s]) * inv_h2,
+                       ahead = (2.0 * mu[c] + lambda[c]) * inv_h2;
+          a[c] = behind * m[c] * m[c - s];
+          diagonal[c] += m[c] * (behind * (1.0 - m[c - s]) + ahead * (1.0 - m[c + s]));
+        });
+      } else {
+        for_each(layout, [=](std::ptrdiff_t c) {
+          a[c] = edge[c] * inv_h2 * m[c] * m[c - s];
+          diagonal[c] += m[c] * inv_h2 * (edge[c] * (1.0 - m[c - s]) + edge[c + s] * (1.0 - m[c + s]));
+        });
+        if (!grid_.cells.periodic[e]) {
+          // a wall is half a cell away: its edge counts twice (once above, through the unmarked ghost)
+          for (const int row : {0, grid_.cells.n[e] - 1}) {
+            Range wall = Range::all(layout);
+            wall.lower[e] = row;
+            wall.upper[e] = row + 1;
+            const std::ptrdiff_t at = row == 0 ? 0 : s;
+            for_each(layout, wall, [=](std::ptrdiff_t c) { diagonal[c] += m[c] * inv_h2 * edge[c + at]; });
+          }
+        }
+      }
+      faces.lower[e] = a;
+    }
+    multigrid_[d].set(faces, diagonal);
+  }
+}
+
+void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) const {
+  const Layout& l = grid_.cells;
+  for (int c = 0; c < grid_.dim; ++c) {
+    boundary_.exchange(u[c]);
+    for (int d = 0; d < grid_.dim; ++d) {
+      if (d == c || l.periodic[d]) continue;
+      const std::ptrdiff_t s = l.stride[d];
+      for (int upper = 0; upper < 2; ++upper) {
+        const double shift = moving_walls ? 2.0 * boundary_.side(d, upper).velocity[c] : 0.0;
+        Range row = grid_.all_faces(c);
+        row.lower[d] = upper ? l.n[d] - 1 : 0;
+        row.upper[d] = row.lower[d] + 1;
+        const std::ptrdiff_t out = upper ? s : -s;
+        double* v = u[c];
+        for_each(l, row, [=](std::ptrdiff_t i) { v[i + out] = shift - v[i]; });
+      }
+    }
+  }
+}
+
+void Friction::apply(const FaceField& mass, const linear::Components& u, const linear::Components& y) {
+  Range with_wrapped = grid_.all_cells();  // the cell beyond a periodic lower end is a neighbour of face 0
+  for (int d = 0; d < grid_.dim; ++d) with_wrapped.lower[d] -= grid_.cells.periodic[d] ? 1 : 0;
+  double* div = divergence_.data();
+  const double *mu = mu_.data(), *lambda = lambda_.data();
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* v = u[d];
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h = 1.0 / grid_.h[d];
+    if (d == 0) {
+      for_each(grid_.cells, with_wrapped, [=](std::ptrdiff_t c) { div[c] = (v[c + s] - v[c]) * inv_h; });
+    } else {
+      for_each(grid_.cells, with_wrapped, [=](std::ptrdiff_t c) { div[c] += (v[c + s] - v[c]) * inv_h; });
+    }
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const double *w = u[e], *edge = mu_edge_[plane_index(d, e)].data();
+      double* tau = shear_[plane_index(d, e)].data();
+      const std::ptrdiff_t t = grid_.stride(e);
+      const double inv_he = 1.0 / grid_.h[e];
+      for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) {
+        tau[c] = edge[c] * ((v[c] - v[c - t]) * inv_he + (w[c] - w[c - s]) * inv_h);
+      });
+    }
+  }
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *v = u[d], *own = mass[d].data(), *m = marked_[d].data();
+    double* out = y[d];
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h = 1.0 / grid_.h[d];
+    const int e = d == 0 ? 1 : 0, g = 3 - d - e;
+    const bool three = grid_.dim == 3;
+    const double* tau1 = shear_[plane_index(d, e)].data();
+    const double* tau2 = three ? shear_[plane_index(d, g)].data() : tau1;
+    const std::ptrdiff_t t1 = grid_.stride(e), t2 = three ? grid_.stride(g) : 0;
+    const double inv_h1 = 1.0 / grid_.h[e], inv_h2 = three ? 1.0 / grid_.h[g] : 0.0;
+    for_each(face_layout(grid_, d), [=](std::ptrdiff_t c) {
+      const double ahead = 2.0 * mu[c] * (v[c + s] - v[c]) * inv_h + lambda[c] * div[c];
+      const double behind = 2.0 * mu[c - s] * (v[c] - v[c - s]) * inv_h + lambda[c - s] * div[c - s];
+      const double force =
+          (ahead - behind) * inv_h + (tau1[c + t1] - tau1[c]) * inv_h1 + (tau2[c + t2] - tau2[c]) * inv_h2;
+      out[c] = m[c] != 0.0 ? own[c] * v[c] - force : 0.0;
+    });
+  }
+}
+
+linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField& rhs,
+                               const FaceInertia& inertia, const Aperture& aperture, const Rheology& rheology,
+                               const FaceField& u_strain, FaceField& u_s) {
+  set_viscosity(rheology, u_strain);
+  mark_faces(inertia, aperture);
+  cut_edges_beside_empty_faces(inertia);
+
+  // Solve for the change of the guess: walls, the gate and faces without grains then enter through the
+  // residual alone.
+  const linear::Components u = pointers(u_s, grid_.dim), r = pointers(residual_, grid_.dim);
+  fill_wall_ghosts(u, true);
+  apply(mass, u, r);
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *b = rhs[d].data(), *m = marked_[d].data();
+    double *res = residual_[d].data(), *x = correction_[d].data();
+    for_each(face_layout(grid_, d), [=](std::ptrdiff_t c) {
+      res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;
+      x[c] = 0.0;
+    });
+  }
+  set_preconditioner(mass);
+  const double scale = scene_.contact.solid_fraction_min * scene_.solid.density / dt;
+  const linear::Report report = solver_.solve(
+      [&](const linear::Components& p, const linear::Components& q) {
+        fill_wall_ghosts(p, false);
+        apply(mass, p, q);
+      },
+      [&](const linear::ConstComponents& res, const linear::Components& z) {
+        for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
+      },
+      {r[0], r[1], r[2]}, pointers(correction_, grid_.dim),
+      {velocity_tolerance * scale, relative_tolerance, most_iterations});
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *x = correction_[d].data(), *m = marked_[d].data();
+    double* v = u_s[d].data();
+    for_each(face_layout(grid_, d), [=](std::ptrdiff_t c) { v[c] += m[c] * x[c]; });
+    boundary_.exchange(u_s[d]);
+  }
+  return report;
+}
+
+}  // namespace granvof

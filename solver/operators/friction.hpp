@@ -1,0 +1,59 @@
+// Implicit solid stress: Coulomb friction (17) and kinetic viscosity (16) of u_s in one symmetric system.
+//
+//   mass u_s - div(2 mu S + lambda (div u_s) I) = rhs,  mu = f_s mu_s^K + mu_friction,  lambda = f_s mu_s^K
+// (f_s (zeta - 2/3 mu) of (16) equals f_s mu_s^K because zeta/mu = 5/3). The full tensor is kept implicit:
+// with a contrast of 1e10 its cross terms cannot be lagged. CG with one multigrid cycle a component; the wall
+// stress of no-slip and Coulomb walls is part of the operator. Known problem: with the full S of (17)
+// friction carries normal load: the base of a bed at rest shows P_s = 270 Pa for a weight of 409 Pa; sigma_yy
+// = P_s - tau_yy is what balances the weight.
+#pragma once
+
+#include <vector>
+
+#include "solver/linear/conjugate_gradient.hpp"
+#include "solver/linear/multigrid.hpp"
+#include "solver/operators/aperture.hpp"
+#include "solver/operators/mixture.hpp"
+#include "solver/operators/rheology.hpp"
+#include "solver/operators/strain.hpp"
+
+namespace granvof {
+
+class Friction {
+ public:
+  Friction(const Grid& grid, const Scene& scene, const Boundary& boundary, const Communicator& communicator);
+
+  // Solves for u_s on the faces that hold grains (f_s >= least_solid_fraction, open); elsewhere u_s keeps its
+  // value and acts as a known velocity. u_s holds the guess. mass [kg/m3 s], rhs [Pa/m]; viscosities from the
+  // rheology and from the strain of `u_strain`, whose ghosts must be filled.
+  linear::Report solve(double dt, const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+                       const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
+                       FaceField& u_s);
+
+ private:
+  void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
+  void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
+  void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
+  void cut_edges_beside_empty_faces(const FaceInertia& inertia);
+  void set_preconditioner(const FaceField& mass);
+  // y = mass u - div(stress of u) where marked, 0 elsewhere; one ghost layer of u must be filled.
+  void apply(const FaceField& mass, const linear::Components& u, const linear::Components& y);
+  // Tangential velocities beyond the walls: minus the inside, or mirrored about the wall's own velocity.
+  void fill_wall_ghosts(const linear::Components& u, bool moving_walls) const;
+
+  const Grid& grid_;
+  const Scene& scene_;
+  const Boundary& boundary_;
+  StrainRate strain_;
+  Field mu_, lambda_;             // at cell centres [Pa s]
+  std::array<Field, 3> mu_edge_;  // on edges [Pa s], by plane_index()
+  std::array<Field, 3> shear_;    // shear stress on edges [Pa]
+  Field divergence_;
+  FaceField marked_;  // 1 where u_s is unknown
+  linear::ConjugateGradient solver_;
+  std::vector<linear::Multigrid> multigrid_;  // one a component
+  std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
+  FaceField component_mass_, residual_, correction_;
+};
+
+}  // namespace granvof

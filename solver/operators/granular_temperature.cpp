@@ -1,0 +1,139 @@
+#include "solver/operators/granular_temperature.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/closures/kinetic_theory.hpp"
+#include "solver/closures/radial_distribution.hpp"
+#include "solver/operators/mixture.hpp"
+
+namespace granvof {
+
+GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                                         const Communicator& communicator)
+    : grid_(grid),
+      scene_(scene),
+      boundary_(boundary),
+      solver_(grid.cells, communicator),
+      conductivity_(grid),
+      kappa_(grid),
+      mass_(grid),
+      rhs_(grid) {}
+
+// (f_s Theta) carried by the solid flux, upwind: a convex combination of old values, so Theta stays positive.
+void GranularTemperature::convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
+                                  const FaceField& flux_s, Field& theta_new) const {
+  const double *f = f_s.data(), *f_new = f_s_new.data(), *t = theta.data();
+  double* out = theta_new.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* q = flux_s[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double dt_h = dt / grid_.h[d];
+    for_each(grid_.cells, [=](std::ptrdiff_t c) {
+      const double ahead = q[c + s] * (q[c + s] > 0.0 ? t[c] : t[c + s]);
+      const double behind = q[c] * (q[c] > 0.0 ? t[c - s] : t[c]);
+      out[c] -= dt_h * (ahead - behind);
+    });
+  }
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    out[c] = f_new[c] >= least_solid_fraction ? std::fmax(out[c] / f_new[c], 0.0) : 0.0;
+  });
+}
+
+// Implicit conduction, kappa of the old level: 3/2 f_s rho_s dTheta/dt = div(f_s kappa grad Theta).
+void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheology& rheology,
+                                  Field& theta_new) {
+  const double rho_s = scene_.solid.density;
+  const double *f = f_s_new.data(), *mu = rheology.kinetic_viscosity.data();
+  double *kappa = kappa_.data(), *mass = mass_.data(), *rhs = rhs_.data(), *t = theta_new.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    const bool grains = f[c] >= least_solid_fraction;
+    kappa[c] = grains ? closures::conductivity_to_viscosity * mu[c] : 0.0;
+    mass[c] = grains ? 1.5 * f[c] * rho_s / dt : 0.0;
+    rhs[c] = mass[c] * t[c];
+  });
+  boundary_.fill_scalar(kappa_);
+  linear::Faces faces{};
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h2 = 1.0 / (grid_.h[d] * grid_.h[d]);
+    double* k = conductivity_[d].data();
+    for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
+      // no conduction into cells without grains
+      k[c] = mass[c] > 0.0 && mass[c - s] > 0.0 ? 0.5 * (kappa[c] + kappa[c - s]) * inv_h2 : 0.0;
+    });
+    faces.lower[d] = k;
+  }
+  const double scale =
+      max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return rhs[c]; });
+  if (scale == 0.0) return;
+  solver_.solve(faces, mass, rhs, t, {1e-6 * scale, 1e-4, 50});
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { t[c] = std::fmax(t[c], 0.0); });
+}
+
+// Local balance of (7), divided by w = sqrt(Theta): 3 f rho dw/dt = A S^2 - G w^2 - (3 beta + B) w, implicit
+// in w. Quadratic with one positive root: stays positive, needs no seed. The algebraic form drops the time
+// term.
+void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceField& beta,
+                                  const Rheology& rheology, const StrainRate& strain,
+                                  Field& theta_new) const {
+  const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter,
+               f_max = scene_.contact.solid_fraction_max;
+  const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
+  const bool work = scene_.model.pressure_work;
+  const double *f_s = f_s_new.data(), *e_cell = rheology.restitution.data();
+  const double *sq = strain.squared.data(), *div = strain.divergence.data();
+  double* t = theta_new.data();
+  std::array<const double*, 3> b{};
+  for (int d = 0; d < grid_.dim; ++d) b[d] = beta[d].data();
+  const int dim = grid_.dim;
+  const auto stride = grid_.cells.stride;
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    const double f = f_s[c];
+    if (f < least_solid_fraction) {
+      t[c] = 0.0;
+      return;
+    }
+    const double e = e_cell[c], g0 = closures::radial_distribution(f, f_max);
+    // mean over the faces that grains pass (closed ones hold no drag coefficient)
+    double drag = 0.0;
+    int passing = 0;
+    for (int d = 0; d < dim; ++d) {
+      for (const double beta_face : {b[d][c], b[d][c + stride[d]]}) {
+        drag += beta_face;
+        passing += beta_face > 0.0 ? 1 : 0;
+      }
+    }
+    if (passing > 0) drag /= passing;
+    const double mu = closures::kinetic_viscosity(f, 1.0, e, g0, rho_s, d_s);  // mu_s^K / sqrt(Theta)
+    // tau^K : S of (16), without the printed factor 2 (model correction 2)
+    const double production =
+        f * mu * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
+    const double collisions = closures::collisional_dissipation_rate(f, e, g0, rho_s, d_s);
+    double linear = 3.0 * drag - 3.0 * (1.0 - e * e) * f * f * rho_s * g0 * div[c];
+    if (work) linear += closures::kinetic_pressure(f, 1.0, e, g0, rho_s) * div[c];
+    const double inertia = steady ? 0.0 : 3.0 * f * rho_s / dt;
+    const double w =
+        closures::positive_root(collisions, inertia + linear, production + inertia * std::sqrt(t[c]));
+    t[c] = w * w;
+  });
+}
+
+void GranularTemperature::advance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
+                                  const FaceField& flux_s, const FaceField& beta, const Rheology& rheology,
+                                  const StrainRate& strain, Field& theta_new) {
+  switch (scene_.model.granular_temperature) {
+    case TemperatureModel::off:
+      return;  // stays zero
+    case TemperatureModel::transported:
+      convect(dt, theta, f_s, f_s_new, flux_s, theta_new);
+      conduct(dt, f_s_new, rheology, theta_new);
+      break;
+    case TemperatureModel::algebraic:
+      break;
+  }
+  balance(dt, f_s_new, beta, rheology, strain, theta_new);
+}
+
+}  // namespace granvof

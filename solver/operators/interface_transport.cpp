@@ -1,0 +1,178 @@
+#include "solver/operators/interface_transport.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/operators/cicsam.hpp"
+
+namespace granvof {
+namespace {
+
+constexpr double interface_courant = 0.5;  // CICSAM degrades to upwind as the Courant number grows
+constexpr int most_substeps = 8;
+
+}  // namespace
+
+InterfaceTransport::InterfaceTransport(const Grid& grid, const Scene& scene, const Boundary& boundary)
+    : grid_(grid),
+      scene_(scene),
+      boundary_(boundary),
+      liquid_(grid),
+      f_c_(grid),
+      f_c_end_(grid),
+      courant_(grid),
+      gain_(grid),
+      loss_(grid),
+      slope_(grid),
+      correction_(grid) {}
+
+// The outflow Courant number of every cell goes to courant_; only cells at the interface decide the division.
+int InterfaceTransport::substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c) {
+  double* co = courant_.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { co[c] = 0.0; });
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* q = flux_c[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double dt_h = dt / grid_.h[d];
+    for_each(grid_.cells,
+             [=](std::ptrdiff_t c) { co[c] += dt_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0)); });
+  }
+  const double *f = f_s.data(), *a = alpha.data();
+  const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
+    co[c] /= 1.0 - f[c];
+    return a[c] > 1e-6 && a[c] < 1.0 - 1e-6 ? co[c] : 0.0;
+  });
+  const int parts = std::clamp(static_cast<int>(std::ceil(largest / interface_courant)), 1, most_substeps);
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { co[c] /= parts; });
+  boundary_.fill_scalar(courant_);
+  return parts;
+}
+
+void InterfaceTransport::interface_normal(const Field& alpha) {
+  const double* a = alpha.data();
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv = 0.5 / grid_.h[d];
+    double* g = slope_[d].data();
+    for_each(grid_.cells, [=](std::ptrdiff_t c) { g[c] = (a[c + s] - a[c - s]) * inv; });
+    boundary_.fill_scalar(slope_[d]);
+  }
+}
+
+void InterfaceTransport::face_alpha(int d, const Field& alpha, const FaceField& flux_c) {
+  const double *a = alpha.data(), *q = flux_c[d].data(), *co = courant_.data();
+  const double* gx = slope_[0].data();
+  const double* gy = slope_[1].data();
+  const double* gz = grid_.dim == 3 ? slope_[2].data() : nullptr;
+  const double* gd = slope_[d].data();
+  double* corr = correction_[d].data();
+  const std::ptrdiff_t s = grid_.stride(d);
+  const bool cicsam_on = scene_.numerics.interface_scheme == InterfaceScheme::cicsam;
+  for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+    const bool forward = q[c] > 0.0;
+    const std::ptrdiff_t donor = forward ? c - s : c;
+    const std::ptrdiff_t acceptor = forward ? c : c - s;
+    const std::ptrdiff_t upwind = forward ? c - 2 * s : c + s;
+    corr[c] = 0.0;
+    if (!cicsam_on || a[donor] == a[acceptor] || q[c] == 0.0) return;
+    const double square =
+        gx[donor] * gx[donor] + gy[donor] * gy[donor] + (gz != nullptr ? gz[donor] * gz[donor] : 0.0);
+    const double cosine_squared = square > 0.0 ? gd[donor] * gd[donor] / square : 1.0;
+    const double face = cicsam_face_value(a[upwind], a[donor], a[acceptor], co[donor], cosine_squared);
+    corr[c] = (face - a[donor]) * q[c];
+  });
+  boundary_.exchange(correction_[d]);
+}
+
+// Zalesak's limiter on the corrections: liquid_ holds the upwind result, which is within bounds.
+void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
+  double *gain = gain_.data(), *loss = loss_.data();
+  const double *fl = liquid_.data(), *fc = f_c_end.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { gain[c] = loss[c] = 0.0; });
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* q = correction_[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double dt_h = dt / grid_.h[d];
+    for_each(grid_.cells, [=](std::ptrdiff_t c) {
+      gain[c] += dt_h * (std::fmax(q[c], 0.0) - std::fmin(q[c + s], 0.0));
+      loss[c] += dt_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0));
+    });
+  }
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    const double room = std::fmax(fc[c] - fl[c], 0.0), held = std::fmax(fl[c], 0.0);
+    gain[c] = gain[c] > room ? room / gain[c] : 1.0;
+    loss[c] = loss[c] > held ? held / loss[c] : 1.0;
+  });
+  boundary_.fill_scalar(gain_, 1.0);
+  boundary_.fill_scalar(loss_, 1.0);
+  for (int d = 0; d < grid_.dim; ++d) {
+    double* q = correction_[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+      q[c] *= q[c] > 0.0 ? std::fmin(loss[c - s], gain[c]) : std::fmin(loss[c], gain[c - s]);
+    });
+    boundary_.exchange(correction_[d]);
+  }
+}
+
+double InterfaceTransport::substep(double dt, const Field& f_c_end, const FaceField& flux_c, Field& alpha,
+                                   Field& f_c) {
+  boundary_.fill_scalar(alpha, 0.0);
+  interface_normal(alpha);
+  double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c.data();
+  const double* fc_end = f_c_end.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] = a[c] * fc[c]; });
+  for (int d = 0; d < grid_.dim; ++d) {
+    face_alpha(d, alpha, flux_c);
+    const double* q = flux_c[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double dt_h = dt / grid_.h[d];
+    for_each(grid_.cells, [=](std::ptrdiff_t c) {
+      const double ahead = q[c + s] * (q[c + s] > 0.0 ? a[c] : a[c + s]);
+      const double behind = q[c] * (q[c] > 0.0 ? a[c - s] : a[c]);
+      fl[c] -= dt_h * (ahead - behind);
+    });
+  }
+  limit_corrections(dt, f_c_end);
+  double left = 0.0;
+  if (grid_.open_top) {
+    Range row = grid_.all_cells();
+    row.lower[1] = grid_.cells.n[1] - 1;
+    const double *q = flux_c[1].data(), *corr = correction_[1].data();
+    const std::ptrdiff_t s = grid_.stride(1);
+    left = dt * grid_.cell_volume / grid_.h[1] * sum_over(grid_.cells, row, [=](std::ptrdiff_t c) {
+             return q[c + s] * (q[c + s] > 0.0 ? a[c] : a[c + s]) + corr[c + s];
+           });
+  }
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double* q = correction_[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double dt_h = dt / grid_.h[d];
+    for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] -= dt_h * (q[c + s] - q[c]); });
+  }
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    // what is clipped is the continuity residual times alpha: the liquid volume error that run.json states
+    a[c] = std::clamp(fl[c] / fc_end[c], 0.0, 1.0);
+    fc[c] = fc_end[c];
+  });
+  return left;
+}
+
+double InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s, const Field& f_s_new,
+                                   const FaceField& flux_c, Field& alpha_new) {
+  const int parts = substeps(dt, alpha, f_s, flux_c);
+  alpha_new = alpha;
+  const double *f = f_s.data(), *f_new = f_s_new.data();
+  double *fc = f_c_.data(), *fc_end = f_c_end_.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
+  double left = 0.0;
+  for (int part = 1; part <= parts; ++part) {
+    const double share = static_cast<double>(part) / parts;
+    for_each(grid_.cells,
+             [=](std::ptrdiff_t c) { fc_end[c] = 1.0 - ((1.0 - share) * f[c] + share * f_new[c]); });
+    left += substep(dt / parts, f_c_end_, flux_c, alpha_new, f_c_);
+  }
+  return left;
+}
+
+}  // namespace granvof

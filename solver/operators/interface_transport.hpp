@@ -1,0 +1,37 @@
+// Liquid volume balance (24): CICSAM (or upwind) on alpha, times the SAME f_c u_c flux as in continuity.
+//
+// A flux-corrected step keeps 0 <= f_l <= f_c without clipping: CICSAM's flux is the upwind flux plus a
+// correction, and the correction is limited where it would leave the bounds. Where the interface moves more
+// than half a cell a step, the step is divided. Known problem: on a curved interface that moves slower than a
+// tenth of a cell a step CICSAM's blending still wrinkles it by about half a cell.
+#pragma once
+
+#include "solver/grid/boundary.hpp"
+
+namespace granvof {
+
+class InterfaceTransport {
+ public:
+  InterfaceTransport(const Grid& grid, const Scene& scene, const Boundary& boundary);
+
+  // In: alpha and f_s of the old level (two ghost layers filled), f_s of the new level, flux_c [m/s].
+  // Out: alpha of the new level. Returns the liquid volume [m3] that left through the open top.
+  double advance(double dt, const Field& alpha, const Field& f_s, const Field& f_s_new,
+                 const FaceField& flux_c, Field& alpha_new);
+
+ private:
+  int substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c);
+  void interface_normal(const Field& alpha);
+  void face_alpha(int d, const Field& alpha, const FaceField& flux_c);
+  void limit_corrections(double dt, const Field& f_c_end);
+  double substep(double dt, const Field& f_c_end, const FaceField& flux_c, Field& alpha, Field& f_c);
+
+  const Grid& grid_;
+  const Scene& scene_;
+  const Boundary& boundary_;
+  Field liquid_, f_c_, f_c_end_, courant_, gain_, loss_;
+  FaceField slope_;       // grad alpha, component by component
+  FaceField correction_;  // CICSAM flux minus upwind flux [m/s]
+};
+
+}  // namespace granvof

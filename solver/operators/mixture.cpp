@@ -1,0 +1,24 @@
+#include "solver/operators/mixture.hpp"
+
+namespace granvof {
+
+void FaceInertia::update(const Grid& grid, const Scene& scene, const Field& f_s_cell, const Field& alpha) {
+  const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
+  const double* f = f_s_cell.data();
+  const double* a = alpha.data();
+  for (int d = 0; d < grid.dim; ++d) {
+    const std::ptrdiff_t s = grid.stride(d);
+    double* face = f_s[d].data();
+    double* m_s = solid[d].data();
+    double* m_c = fluid[d].data();
+    for_each(grid.cells, grid.cells_and_ghosts(1), [=](std::ptrdiff_t c) {
+      const double fs = 0.5 * (f[c] + f[c - s]);
+      face[c] = fs;
+      m_s[c] = fs * rho_s;
+      m_c[c] = 0.5 * ((1.0 - f[c]) * mixture(a[c], rho_l, rho_g) +
+                      (1.0 - f[c - s]) * mixture(a[c - s], rho_l, rho_g));
+    });
+  }
+}
+
+}  // namespace granvof

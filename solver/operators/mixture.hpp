@@ -1,0 +1,28 @@
+// Density and viscosity of the continuous phase and the inertia of both phases on faces.
+#pragma once
+
+#include "solver/grid/field.hpp"
+
+namespace granvof {
+
+// Below this solid fraction a face holds no grains: u_s is locked to u_c there.
+inline constexpr double least_solid_fraction = 1e-6;
+
+// rho_c = alpha rho_l + (1 - alpha) rho_g [kg/m3]; mu_c likewise [Pa s] (below eq (5)). Pure, cell by cell.
+inline double mixture(double alpha, double liquid, double gas) {
+  return alpha * liquid + (1.0 - alpha) * gas;
+}
+
+// Mass per volume on the faces: f_s rho_s and f_c rho_c [kg/m3], arithmetic means of the two cells (upwind
+// values as inertia blow up, see the numerics notes). Values reach one ghost layer; two of f_s and alpha must
+// be filled.
+struct FaceInertia {
+  FaceField f_s;    // solid fraction on faces [-]
+  FaceField solid;  // f_s rho_s [kg/m3]
+  FaceField fluid;  // f_c rho_c [kg/m3]
+
+  explicit FaceInertia(const Grid& grid) : f_s(grid), solid(grid), fluid(grid) {}
+  void update(const Grid& grid, const Scene& scene, const Field& f_s_cell, const Field& alpha);
+};
+
+}  // namespace granvof

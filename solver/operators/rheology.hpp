@@ -1,0 +1,21 @@
+// Cell values of the solid's constitutive law at the old level, eqs (11)-(20).
+#pragma once
+
+#include "solver/grid/boundary.hpp"
+
+namespace granvof {
+
+struct Rheology {
+  Field restitution;        // e, eq (18) [-]
+  Field kinetic_viscosity;  // f_s mu_s^K [Pa s], eqs (16), (20); also f_s (zeta_s^K - 2/3 mu_s^K), see
+                            // friction.hpp
+  Field enduring_pressure;  // P_s^E [Pa], eqs (12)-(14)
+
+  explicit Rheology(const Grid& grid) : restitution(grid), kinetic_viscosity(grid), enduring_pressure(grid) {}
+
+  // All three with ghosts filled, from f_s, Theta and alpha of the same level.
+  void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
+              const Field& theta, const Field& alpha);
+};
+
+}  // namespace granvof

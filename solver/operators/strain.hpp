@@ -1,0 +1,25 @@
+// Strain rate of a staggered velocity: S = (grad u + grad u^T) / 2.
+#pragma once
+
+#include "solver/grid/field.hpp"
+
+namespace granvof {
+
+// The edge field of plane (d, e) has index d + e - 1: xy 0, xz 1, yz 2.
+inline int plane_index(int d, int e) {
+  return d + e - 1;
+}
+
+struct StrainRate {
+  std::array<Field, 3> shear;          // 2 S_de = du_d/dx_e + du_e/dx_d on the edges of plane (d, e) [1/s]
+  Field squared;                       // S:S at cell centres [1/s2]
+  Field normal_squared;                // its part from the normal strains
+  std::array<Field, 3> plane_squared;  // its part from the shear of each plane
+  Field divergence;                    // div u at cell centres [1/s]
+
+  explicit StrainRate(const Grid& grid);
+  // One ghost layer of u must be filled.
+  void update(const Grid& grid, const FaceField& u);
+};
+
+}  // namespace granvof

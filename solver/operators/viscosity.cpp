@@ -1,0 +1,66 @@
+#include "solver/operators/viscosity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/closures/smagorinsky.hpp"
+
+namespace granvof {
+namespace {
+
+// Harmonic mean of the four cells around an edge: gas beside liquid must not feel the liquid's viscosity.
+inline double edge_mean(const double* mu, std::ptrdiff_t c, std::ptrdiff_t s, std::ptrdiff_t t) {
+  const double a = mu[c] * mu[c - s], b = mu[c - t] * mu[c - s - t];
+  const double sum = (mu[c] + mu[c - s]) * b + (mu[c - t] + mu[c - s - t]) * a;
+  return sum > 0.0 ? 4.0 * a * b / sum : 0.0;
+}
+
+}  // namespace
+
+double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, const Field& f_s,
+                              const Field& alpha) {
+  strain_.update(grid_, u_c);
+  const double delta =
+      grid_.dim == 2 ? std::sqrt(grid_.h[0] * grid_.h[1]) : std::cbrt(grid_.h[0] * grid_.h[1] * grid_.h[2]);
+  const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
+  const double rho_l = liquid.density, rho_g = gas.density, mu_l = liquid.viscosity, mu_g = gas.viscosity;
+  const bool les = scene_.model.les;
+  const double* f = f_s.data();
+  const double* a = alpha.data();
+  const double* sq = strain_.squared.data();
+  double* mu = viscosity_.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    const double rho = mixture(a[c], rho_l, rho_g);
+    const double eddy = les ? closures::eddy_viscosity(rho, delta, sq[c]) : 0.0;
+    mu[c] = (1.0 - f[c]) * (mixture(a[c], mu_l, mu_g) + eddy);
+  });
+  boundary.fill_scalar(viscosity_);
+  return max_over(grid_.cells, grid_.all_cells(), 0.0,
+                  [=](std::ptrdiff_t c) { return mu[c] / ((1.0 - f[c]) * mixture(a[c], rho_l, rho_g)); });
+}
+
+void FluidViscosity::add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d,
+                                      const Range& faces, Field& acceleration) const {
+  const double* mu = viscosity_.data();
+  const double* v = u_c[d].data();
+  const double* m = inertia.fluid[d].data();
+  double* out = acceleration.data();
+  const std::ptrdiff_t s = grid_.stride(d);
+  const double inv_h = 1.0 / grid_.h[d];
+  for_each(grid_.cells, faces, [=](std::ptrdiff_t c) {
+    const double ahead = mu[c] * (v[c + s] - v[c]), behind = mu[c - s] * (v[c] - v[c - s]);
+    out[c] += 2.0 * (ahead - behind) * inv_h * inv_h / m[c];
+  });
+  for (int e = 0; e < grid_.dim; ++e) {
+    if (e == d) continue;
+    const double* g = strain_.shear[plane_index(d, e)].data();
+    const std::ptrdiff_t t = grid_.stride(e);
+    const double inv_he = 1.0 / grid_.h[e];
+    for_each(grid_.cells, faces, [=](std::ptrdiff_t c) {
+      const double ahead = edge_mean(mu, c + t, s, t) * g[c + t], behind = edge_mean(mu, c, s, t) * g[c];
+      out[c] += (ahead - behind) * inv_he / m[c];
+    });
+  }
+}
+
+}  // namespace granvof

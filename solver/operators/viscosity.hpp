@@ -1,0 +1,30 @@
+// Explicit viscous acceleration of the continuous phase: the diffusion term of (5) with LES (10).
+#pragma once
+
+#include "solver/grid/boundary.hpp"
+#include "solver/operators/mixture.hpp"
+#include "solver/operators/strain.hpp"
+
+namespace granvof {
+
+class FluidViscosity {
+ public:
+  FluidViscosity(const Grid& grid, const Scene& scene)
+      : grid_(grid), scene_(scene), strain_(grid), viscosity_(grid) {}
+
+  // f_c (mu_c + mu_t) of every cell from the old level; u, f_s, alpha with one ghost layer filled.
+  // Returns the largest kinematic viscosity [m2/s], which bounds the explicit step.
+  double update(const Boundary& boundary, const FaceField& u_c, const Field& f_s, const Field& alpha);
+
+  // Adds (1 / (f_c rho_c)) div(f_c (mu_c + mu_t)(grad u + grad u^T)) [m/s2] to component d.
+  void add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d, const Range& faces,
+                        Field& acceleration) const;
+
+ private:
+  const Grid& grid_;
+  const Scene& scene_;
+  StrainRate strain_;
+  Field viscosity_;  // f_c (mu_c + mu_t) [Pa s]
+};
+
+}  // namespace granvof

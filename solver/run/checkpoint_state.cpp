@@ -1,0 +1,80 @@
+#include "solver/run/checkpoint_state.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace granvof {
+namespace {
+
+// visit(name, field) for every field of the state; the one list both directions use.
+template <typename StateType, typename Visit>
+void for_each_field(const Grid& grid, StateType& s, Visit&& visit) {
+  visit("f_s", s.f_s);
+  visit("alpha", s.alpha);
+  visit("p_c", s.p_c);
+  visit("p_s", s.p_s);
+  visit("theta", s.theta);
+  visit("phi", s.phi);
+  for (int d = 0; d < grid.dim; ++d) {
+    const std::string index = std::to_string(d);
+    visit("u_s" + index, s.u_s[d]);
+    visit("u_c" + index, s.u_c[d]);
+    visit("u_strain" + index, s.u_strain[d]);
+  }
+}
+
+template <typename Counters, typename Visit>
+void for_each_counter(Counters& c, Visit&& visit) {
+  visit("steps", c.steps);
+  visit("refused_steps", c.refused_steps);
+  visit("newton", c.newton);
+  visit("linear", c.linear);
+  visit("friction", c.friction);
+  visit("unconverged_friction", c.unconverged_friction);
+}
+
+}  // namespace
+
+CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepControl& control,
+                               const Monitors& monitors, const RunCounters& counters,
+                               const RunProgress& progress) {
+  CheckpointView view;
+  view.time = s.time;
+  for_each_field(grid, s, [&](const std::string& name, const Field& f) { view.arrays[name] = f.span(); });
+  for_each_counter(counters, [&](const char* name, std::int64_t value) { view.counters[name] = value; });
+  view.counters["next_field"] = static_cast<std::int64_t>(counters.next_field);
+  const Monitors::Values v = monitors.values();
+  view.scalars = {{"last_dt", control.last()},
+                  {"next_row", counters.next_row},
+                  {"kinematic_viscosity", counters.kinematic_viscosity},
+                  {"wall_seconds", progress.wall_seconds},
+                  {"core_seconds", progress.core_seconds},
+                  {"solid_volume", v.solid_volume},
+                  {"liquid_volume", v.liquid_volume},
+                  {"liquid_left", v.liquid_left},
+                  {"solid_error", v.solid_error},
+                  {"liquid_error", v.liquid_error},
+                  {"solid_max", v.solid_max}};
+  return view;
+}
+
+void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& control, Monitors& monitors,
+             RunCounters& counters) {
+  s.time = saved.time;
+  for_each_field(grid, s, [&](const std::string& name, Field& f) {
+    const std::vector<double>& values = saved.array(name, f.span().size());
+    std::copy(values.begin(), values.end(), f.span().begin());
+  });
+  for_each_counter(counters, [&](const char* name, std::int64_t& value) { value = saved.counter(name); });
+  counters.next_field = static_cast<std::size_t>(saved.counter("next_field"));
+  counters.next_row = saved.scalar("next_row");
+  counters.kinematic_viscosity = saved.scalar("kinematic_viscosity");
+  counters.wall_seconds = saved.scalar("wall_seconds");
+  counters.core_seconds = saved.scalar("core_seconds");
+  control.restore(saved.scalar("last_dt"));
+  monitors.restore({saved.scalar("solid_volume"), saved.scalar("liquid_volume"), saved.scalar("liquid_left"),
+                    saved.scalar("solid_error"), saved.scalar("liquid_error"), saved.scalar("solid_max")});
+}
+
+}  // namespace granvof

@@ -1,0 +1,62 @@
+#include "solver/run/monitors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granvof {
+
+Monitors::Monitors(const Grid& grid, const Scene&, const State& start)
+    : grid_(grid), solid_volume_(solid_volume(start)), liquid_volume_(liquid_volume(start)) {
+  update(start, 0.0);
+}
+
+double Monitors::solid_volume(const State& s) const {
+  const double* f = s.f_s.data();
+  return grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return f[c]; });
+}
+
+double Monitors::liquid_volume(const State& s) const {
+  const double *f = s.f_s.data(), *a = s.alpha.data();
+  return grid_.cell_volume *
+         sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return a[c] * (1.0 - f[c]); });
+}
+
+void Monitors::update(const State& s, double liquid_left) {
+  liquid_left_ += liquid_left;
+  if (solid_volume_ > 0.0)
+    solid_error_ = std::max(solid_error_, std::fabs(solid_volume(s) - solid_volume_) / solid_volume_);
+  if (liquid_volume_ > 0.0)
+    liquid_error_ =
+        std::max(liquid_error_, std::fabs(liquid_volume(s) + liquid_left_ - liquid_volume_) / liquid_volume_);
+  const double* f = s.f_s.data();
+  solid_max_ = max_over(grid_.cells, grid_.all_cells(), solid_max_, [=](std::ptrdiff_t c) { return f[c]; });
+}
+
+std::string Monitors::not_finite(const State& s) const {
+  const auto finite = [&](const Field& field) {
+    const double* v = field.data();
+    return std::isfinite(
+        max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return std::fabs(v[c]); }));
+  };
+  if (!finite(s.f_s)) return "solid fraction";
+  if (!finite(s.alpha)) return "liquid share";
+  if (!finite(s.p_c)) return "fluid pressure";
+  if (!finite(s.p_s)) return "solid pressure";
+  if (!finite(s.theta)) return "granular temperature";
+  for (int d = 0; d < grid_.dim; ++d) {
+    if (!finite(s.u_s[d])) return "solid velocity";
+    if (!finite(s.u_c[d])) return "velocity of the continuous phase";
+  }
+  return {};
+}
+
+void Monitors::restore(const Values& v) {
+  solid_volume_ = v.solid_volume;
+  liquid_volume_ = v.liquid_volume;
+  liquid_left_ = v.liquid_left;
+  solid_error_ = v.solid_error;
+  liquid_error_ = v.liquid_error;
+  solid_max_ = v.solid_max;
+}
+
+}  // namespace granvof

@@ -1,0 +1,41 @@
+// Named monitors of a run: volumes, extremes, and whether anything stopped being finite.
+#pragma once
+
+#include <string>
+
+#include "solver/run/state.hpp"
+
+namespace granvof {
+
+class Monitors {
+ public:
+  // Takes the volumes of the start as the reference.
+  Monitors(const Grid& grid, const Scene& scene, const State& start);
+
+  // After an accepted step; `liquid_left` is what left through the open top [m3].
+  void update(const State& s, double liquid_left);
+
+  double solid_volume_error() const { return solid_error_; }    // largest relative change so far [-]
+  double liquid_volume_error() const { return liquid_error_; }  // the same, outflow accounted for [-]
+  double solid_fraction_max() const { return solid_max_; }      // largest ever [-]
+  // Empty, or which field is not finite.
+  std::string not_finite(const State& s) const;
+
+  struct Values {
+    double solid_volume, liquid_volume, liquid_left, solid_error, liquid_error, solid_max;
+  };
+  Values values() const {
+    return {solid_volume_, liquid_volume_, liquid_left_, solid_error_, liquid_error_, solid_max_};
+  }
+  void restore(const Values& v);
+
+ private:
+  double solid_volume(const State& s) const;
+  double liquid_volume(const State& s) const;
+
+  const Grid& grid_;
+  double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0;
+  double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0;
+};
+
+}  // namespace granvof

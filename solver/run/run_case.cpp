@@ -1,0 +1,216 @@
+#include "solver/run/run_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <ctime>
+
+#include <omp.h>
+#include <spdlog/spdlog.h>
+
+#include "solver/output/run_writer.hpp"
+#include "solver/run/checkpoint_state.hpp"
+#include "solver/run/monitors.hpp"
+#include "solver/run/progress_line.hpp"
+#include "solver/run/snapshot.hpp"
+#include "solver/run/step_control.hpp"
+#include "solver/run/time_step.hpp"
+
+namespace granvof {
+namespace {
+
+// Set by SIGINT and SIGTERM; the one thing a signal handler may do.
+volatile std::sig_atomic_t stop_requested = 0;
+void request_stop(int) {
+  stop_requested = 1;
+}
+
+double core_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::vector<Column> monitor_columns() {
+  return {{"dt", "s", "last time step"},
+          {"newton", "-", "Newton iterations of the last step"},
+          {"linear", "-", "iterations of the coupled pressure solver in the last step"},
+          {"friction_iterations", "-", "iterations of the friction solver in the last step"},
+          {"solid_volume_error", "-", "largest relative change of the solid volume so far"},
+          {"liquid_volume_error", "-",
+           "largest relative change of the liquid volume so far, outflow accounted for"}};
+}
+
+// One run: everything that lives from the first step to the last.
+class Run {
+ public:
+  Run(const Scene& scene, const RunOptions& options)
+      : scene_(scene),
+        options_(options),
+        grid_(scene),
+        boundary_(grid_, scene, communicator_),
+        step_(grid_, scene, boundary_, communicator_),
+        control_(grid_, scene),
+        now_(initial_state(grid_, scene, boundary_)),
+        next_(grid_),
+        monitors_(grid_, scene, now_),
+        writer_(open_writer()),
+        progress_line_(options.progress, scene) {}
+
+  int go();
+
+ private:
+  RunWriter open_writer();
+  bool advance();  // one accepted step; false if the step collapsed
+  void write_due_output(bool force);
+  void checkpoint();
+  RunProgress progress() const;
+  int finish(ExitState state, const std::string& reason);
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  SerialCommunicator communicator_;
+  Grid grid_;
+  Boundary boundary_;
+  TimeStep step_;
+  StepControl control_;
+  State now_, next_;
+  Monitors monitors_;
+  RunCounters counters_;
+  StepReport last_;
+  std::string trouble_;
+  RunWriter writer_;
+  ProgressLine progress_line_;
+  double started_core_ = core_seconds();
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(),
+                                        last_checkpoint_ = started_;
+};
+
+RunWriter Run::open_writer() {
+  const RunStart start{"granvof", options_.command, 1, options_.threads};
+  if (!options_.resume) return RunWriter::fresh(options_.out, scene_, start, monitor_columns());
+  const Checkpoint saved = read_checkpoint(options_.out / "checkpoint.h5", scene_);
+  restore(saved, grid_, now_, control_, monitors_, counters_);
+  now_.fill_ghosts(boundary_);
+  return RunWriter::resume(options_.out, scene_, start, monitor_columns(), saved.time);
+}
+
+bool Run::advance() {
+  double dt = control_.next(now_, counters_.kinematic_viscosity);
+  // Meet the next field time exactly, without a tiny last step.
+  if (counters_.next_field < scene_.times.field_times.size()) {
+    const double left = scene_.times.field_times[counters_.next_field] - now_.time;
+    if (left > 0.0) dt = left / std::ceil(left / dt * (1.0 - 1e-9));
+  }
+  for (;;) {
+    last_ = step_.advance(now_, dt, next_);
+    if (last_.accepted) {
+      trouble_ = monitors_.not_finite(next_);
+      if (trouble_.empty()) break;
+      last_.refused_because = "the " + trouble_ + " is not finite";
+    }
+    ++counters_.refused_steps;
+    spdlog::debug("t = {:.6g} s: step of {:.3g} s refused: {}", now_.time, dt, last_.refused_because);
+    dt = control_.after_refusal(dt);
+    if (dt < scene_.numerics.dt_min) {
+      trouble_ = fmt::format("step collapse at t = {:.6g} s: {}", now_.time, last_.refused_because);
+      return false;
+    }
+  }
+  std::swap(now_, next_);
+  control_.accepted(dt);
+  monitors_.update(now_, last_.liquid_left);
+  counters_.kinematic_viscosity = last_.kinematic_viscosity;
+  counters_.newton += last_.pressure.newton;
+  counters_.linear += last_.pressure.linear;
+  counters_.friction += last_.friction.iterations;
+  counters_.unconverged_friction += last_.friction.converged ? 0 : 1;
+  ++counters_.steps;
+  return true;
+}
+
+void Run::write_due_output(bool force) {
+  const Times& times = scene_.times;
+  if (now_.time < -1e-12) return;  // the column is still held
+  const bool field_due = counters_.next_field < times.field_times.size() &&
+                         now_.time >= times.field_times[counters_.next_field] - 1e-9 * times.end;
+  const bool row_due = force || field_due || now_.time >= counters_.next_row - 1e-9 * times.end;
+  if (!row_due) return;
+  const CellFields fields = cell_fields(grid_, now_);
+  const std::vector<Value> row{control_.last(),
+                               static_cast<double>(last_.pressure.newton),
+                               static_cast<double>(last_.pressure.linear),
+                               static_cast<double>(last_.friction.iterations),
+                               monitors_.solid_volume_error(),
+                               monitors_.liquid_volume_error()};
+  writer_.write_series_row(now_.time, row, extract_scalars(fields, scene_));
+  while (counters_.next_row <= now_.time + 1e-9 * times.end) counters_.next_row += times.series_interval;
+  if (field_due) {
+    writer_.write_fields(fields);
+    ++counters_.next_field;
+  }
+}
+
+RunProgress Run::progress() const {
+  RunProgress p;
+  p.steps = counters_.steps;
+  p.refused_steps = counters_.refused_steps;
+  p.cells = static_cast<std::int64_t>(grid_.cells.count());
+  p.simulated_time = now_.time;
+  p.wall_seconds = counters_.wall_seconds +
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  p.core_seconds = counters_.core_seconds + core_seconds() - started_core_;
+  p.cost = step_.cost().seconds();
+  p.solid_volume_error = monitors_.solid_volume_error();
+  p.liquid_volume_error = monitors_.liquid_volume_error();
+  p.solid_fraction_max = monitors_.solid_fraction_max();
+  const double steps = std::max<double>(1.0, static_cast<double>(counters_.steps));
+  p.monitors = {{"newton_per_step", static_cast<double>(counters_.newton) / steps},
+                {"linear_per_step", static_cast<double>(counters_.linear) / steps},
+                {"friction_per_step", static_cast<double>(counters_.friction) / steps},
+                {"unconverged_friction_solves", static_cast<double>(counters_.unconverged_friction)},
+                {"last_dt", control_.last()}};
+  return p;
+}
+
+void Run::checkpoint() {
+  const RunProgress p = progress();
+  writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, p), p);
+  last_checkpoint_ = std::chrono::steady_clock::now();
+}
+
+int Run::finish(ExitState state, const std::string& reason) {
+  progress_line_.clear();
+  if (state != ExitState::finished) {
+    checkpoint();
+    spdlog::error("{}: {}; last good state at t = {:.6g} s is in {}", scene_.name, reason, now_.time,
+                  writer_.checkpoint_path().string());
+  }
+  writer_.finish(progress(), {state, reason});
+  return state == ExitState::finished ? 0 : 1;
+}
+
+int Run::go() {
+  if (!options_.resume) write_due_output(false);
+  while (now_.time < scene_.times.end * (1.0 - 1e-12)) {
+    if (stop_requested) return finish(ExitState::stopped, "stopped by a signal");
+    if (!advance()) return finish(ExitState::failed, trouble_);
+    write_due_output(now_.time >= scene_.times.end * (1.0 - 1e-12));
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint_;
+    if (scene_.times.checkpoint_interval > 0.0 && since.count() >= scene_.times.checkpoint_interval)
+      checkpoint();
+    progress_line_.show(progress(), control_.last(), last_.pressure.newton, last_.pressure.linear);
+  }
+  return finish(ExitState::finished, {});
+}
+
+}  // namespace
+
+int run_case(const Scene& scene, const RunOptions& options) {
+  omp_set_num_threads(std::max(1, options.threads));
+  stop_requested = 0;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  return Run(scene, options).go();
+}
+
+}  // namespace granvof

@@ -1,0 +1,26 @@
+// Everything that is carried from one time step to the next.
+#pragma once
+
+#include "solver/grid/boundary.hpp"
+
+namespace granvof {
+
+struct State {
+  double time = 0.0;   // [s]; negative while the column is held before its release
+  Field f_s;           // solid fraction [-]
+  Field alpha;         // liquid share of the continuous phase [-]
+  Field p_c, p_s;      // fluid and solid pressure [Pa]
+  Field theta;         // granular temperature [m2/s2]
+  Field phi;           // colour of the solid [-]
+  FaceField u_s, u_c;  // velocities on faces [m/s]
+  FaceField u_strain;  // u_s after the friction step: the velocity whose strain sets the next friction [m/s]
+
+  explicit State(const Grid& grid);
+  void fill_ghosts(const Boundary& boundary);
+};
+
+// The state at the start of a scene: the bed and the liquid by volume share of each cell, both at rest, fluid
+// pressure hydrostatic, no solid pressure (the packing takes its weight in the first steps).
+State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary);
+
+}  // namespace granvof

@@ -1,0 +1,54 @@
+#include "solver/run/step_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granvof {
+namespace {
+
+constexpr double growth = 1.2;
+constexpr double after_refused_step = 0.4;
+constexpr double rows_of_the_gate_in_a_step = 0.5;
+constexpr double viscous_number = 0.4;  // nu dt sum(1/h^2) of the explicit viscosity; 0.5 is its limit
+constexpr double first_share_of_dt_max = 0.1;
+constexpr double solid_that_counts = 1e-3;  // solid fraction below which u_s does not bound the step
+
+}  // namespace
+
+StepControl::StepControl(const Grid& grid, const Scene& scene)
+    : grid_(grid), scene_(scene), last_(first_share_of_dt_max * scene.numerics.dt_max) {}
+
+double StepControl::next(const State& s, double kinematic_viscosity) const {
+  double rate = 0.0;  // of crossing a cell [1/s]
+  const double* f = s.f_s.data();
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *uc = s.u_c[d].data(), *us = s.u_s[d].data();
+    const std::ptrdiff_t stride = grid_.stride(d);
+    const double speed = max_over(grid_.cells, grid_.fluid_faces(d), 0.0, [=](std::ptrdiff_t c) {
+      const double solid = f[c] + f[c - stride] > 2.0 * solid_that_counts ? std::fabs(us[c]) : 0.0;
+      return std::fmax(std::fabs(uc[c]), solid);
+    });
+    rate = std::max(rate, speed / grid_.h[d]);
+  }
+  double dt = std::min(scene_.numerics.dt_max, growth * last_);
+  if (rate > 0.0) dt = std::min(dt, scene_.numerics.cfl / rate);
+  double inverse_squares = 0.0;
+  for (int d = 0; d < grid_.dim; ++d)
+    if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
+  if (kinematic_viscosity > 0.0) dt = std::min(dt, viscous_number / (kinematic_viscosity * inverse_squares));
+  if (scene_.gate) {
+    const double risen = scene_.tank[1] / scene_.gate->speed;
+    if (s.time < 0.0) {
+      dt = std::min(dt, std::max(-s.time, scene_.numerics.dt_min));  // meet the release exactly
+    } else if (s.time < risen) {
+      dt = std::min(dt, rows_of_the_gate_in_a_step * grid_.h[1] / scene_.gate->speed);
+    }
+  }
+  return dt;
+}
+
+double StepControl::after_refusal(double dt) const {
+  return after_refused_step * dt;
+}
+
+}  // namespace granvof

@@ -1,0 +1,168 @@
+#include "solver/run/time_step.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/operators/convection.hpp"
+#include "solver/operators/solid_transport.hpp"
+
+namespace granvof {
+namespace {
+
+constexpr double largest_outflow = 0.95;         // share of a cell's content that may leave it in one step
+constexpr double largest_solid_fraction = 0.66;  // beyond it the step's packing is not to be trusted
+constexpr double solid_that_counts = 1e-3;       // solid fraction below which u_s bounds no step
+
+}  // namespace
+
+TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                   const Communicator& communicator)
+    : grid_(grid),
+      scene_(scene),
+      boundary_(boundary),
+      aperture_(grid, scene),
+      inertia_(grid),
+      drag_(grid, scene),
+      rheology_(grid),
+      viscosity_(grid, scene),
+      friction_(grid, scene, boundary, communicator),
+      pressure_(grid, scene, boundary, communicator),
+      interface_(grid, scene, boundary),
+      temperature_(grid, scene, boundary, communicator),
+      strain_(grid),
+      predicted_s_(grid),
+      predicted_c_(grid),
+      mass_(grid),
+      rhs_(grid),
+      flux_s_(grid),
+      flux_c_(grid) {}
+
+StepReport TimeStep::advance(const State& now, double dt, State& next) {
+  StepReport report;
+  next = now;
+  next.time = now.time + dt;
+  aperture_.update(next.time);
+
+  cost_.time("closures", [&] {
+    inertia_.update(grid_, scene_, now.f_s, now.alpha);
+    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha);
+    drag_.update(now.u_s, now.u_c, now.alpha, inertia_);
+  });
+  cost_.time("predictor", [&] { predict(now, dt); });
+  cost_.time("friction", [&] { apply_friction(now, dt, next, report); });
+  cost_.time("pressure", [&] {
+    report.pressure = pressure_.solve(dt, now.f_s, {now.theta, rheology_.restitution}, inertia_, drag_.beta(),
+                                      aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
+  });
+  report.refused_because = reason_to_refuse(now, dt, report);
+  if (!report.refused_because.empty()) return report;
+
+  cost_.time("transport", [&] {
+    keep_solid_positive(grid_, boundary_, dt, now.f_s, flux_s_, flux_c_);
+    transport_solid(grid_, dt, now.f_s, flux_s_, next.f_s);
+  });
+  const double* f = next.f_s.data();
+  const double densest =
+      max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return f[c]; });
+  if (!(densest <= largest_solid_fraction)) {
+    report.refused_because = fmt::format("solid fraction {:.3f}", densest);
+    return report;
+  }
+  cost_.time("transport", [&] {
+    if (scene_.model.colour) transport_colour(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
+    report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, next.f_s, flux_c_, next.alpha);
+    boundary_.fill_scalar(next.f_s, 0.0);
+    boundary_.fill_velocity(next.u_s, Phase::solid);
+  });
+  cost_.time("granular temperature", [&] {
+    strain_.update(grid_, next.u_s);
+    temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta(), rheology_, strain_,
+                         next.theta);
+  });
+  next.fill_ghosts(boundary_);
+  report.kinematic_viscosity = kinematic_viscosity_;
+  report.accepted = true;
+  return report;
+}
+
+// Explicit part of (5) and (6): convection, fluid viscosity, gravity. The old pressure gradient of the fluid
+// is in its predictor; the solid's enters the implicit friction step, or the bed would hang on its own
+// viscosity.
+void TimeStep::predict(const State& now, double dt) {
+  kinematic_viscosity_ = viscosity_.update(boundary_, now.u_c, now.f_s, now.alpha);
+  const bool limited = scene_.numerics.solid_flux == SolidFlux::limited;
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double gravity = d == 1 ? -scene_.gravity : 0.0, inv_h = 1.0 / grid_.h[d];
+    const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
+    convective_acceleration(grid_, now.u_c, d, fluid, limited, predicted_c_[d]);
+    viscosity_.add_acceleration(now.u_c, inertia_, d, fluid, predicted_c_[d]);
+    convective_acceleration(grid_, now.u_s, d, solid, limited, predicted_s_[d]);
+    const double *open = aperture_[d].data(), *f = inertia_.f_s[d].data(), *m = inertia_.fluid[d].data();
+    const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
+    double *c_star = predicted_c_[d].data(), *s_star = predicted_s_[d].data();
+    for_each(grid_.cells, fluid, [=](std::ptrdiff_t c) {
+      const double pressure = (1.0 - f[c]) * (p[c] - p[c - s]) * inv_h / m[c];
+      c_star[c] = open[c] * (uc[c] + dt * (c_star[c] + gravity - pressure));
+    });
+    for_each(grid_.cells, solid,
+             [=](std::ptrdiff_t c) { s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity)); });
+    boundary_.exchange(predicted_c_[d]);
+    boundary_.exchange(predicted_s_[d]);
+  }
+}
+
+// Implicit friction, kinetic viscosity and drag of u_s with the old pressure gradients; u_c is eliminated
+// face by face: beta_eff = beta m_c / (m_c + beta), m_c = f_c rho_c / dt.
+void TimeStep::apply_friction(const State& now, double dt, State& next, StepReport& report) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h = 1.0 / grid_.h[d], inv_dt = 1.0 / dt;
+    const double *f = inertia_.f_s[d].data(), *solid = inertia_.solid[d].data(),
+                 *fluid = inertia_.fluid[d].data();
+    const double *beta = drag_.beta()[d].data(), *open = aperture_[d].data();
+    const double *p_c = now.p_c.data(), *p_s = now.p_s.data(), *us = now.u_s[d].data();
+    const double *c_star = predicted_c_[d].data(), *s_star = predicted_s_[d].data();
+    double *mass = mass_[d].data(), *rhs = rhs_[d].data(), *guess = next.u_s[d].data();
+    for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
+      const double m_s = solid[c] * inv_dt, m_c = fluid[c] * inv_dt;
+      const double beta_eff = beta[c] * m_c / (m_c + beta[c]);
+      mass[c] = m_s + beta_eff;
+      rhs[c] = m_s * s_star[c] + beta_eff * c_star[c] - f[c] * (p_c[c] - p_c[c - s]) * inv_h -
+               (p_s[c] - p_s[c - s]) * inv_h;
+      guess[c] = open[c] * (f[c] >= least_solid_fraction ? us[c] : c_star[c]);
+    });
+    boundary_.exchange(next.u_s[d]);
+  }
+  report.friction = friction_.solve(dt, mass_, rhs_, inertia_, aperture_, rheology_, now.u_strain, next.u_s);
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double inv_dt = 1.0 / dt;
+    const double *fluid = inertia_.fluid[d].data(), *beta = drag_.beta()[d].data();
+    const double *c_star = predicted_c_[d].data(), *us = next.u_s[d].data();
+    double* uc = next.u_c[d].data();
+    for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+      const double m_c = fluid[c] * inv_dt;
+      uc[c] = (m_c * c_star[c] + beta[c] * us[c]) / (m_c + beta[c]);
+    });
+    boundary_.exchange(next.u_c[d]);
+  }
+  next.u_strain = next.u_s;
+}
+
+std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {
+  if (!std::isfinite(report.friction.final)) return "the friction solve is not finite";
+  if (!std::isfinite(report.pressure.mismatch) || !std::isfinite(report.pressure.divergence))
+    return "the pressure solve is not finite";
+  if (!report.pressure.converged)
+    return fmt::format(
+        "the coupled pressures did not converge in {} iterations (solid fraction off by {:.1e})",
+        report.pressure.newton, report.pressure.mismatch);
+  const double solid = outflow_courant(grid_, dt, now.f_s, false, solid_that_counts, flux_s_);
+  if (!(solid <= largest_outflow)) return fmt::format("outflow Courant number {:.2f} of the solid", solid);
+  const double fluid = outflow_courant(grid_, dt, now.f_s, true, 0.0, flux_c_);
+  if (!(fluid <= largest_outflow)) return fmt::format("outflow Courant number {:.2f} of the fluid", fluid);
+  return {};
+}
+
+}  // namespace granvof

@@ -1,0 +1,63 @@
+// One time step of the gas-liquid-solid model: the algorithm, one named operator a line.
+#pragma once
+
+#include <string>
+
+#include "solver/operators/aperture.hpp"
+#include "solver/operators/coupled_pressure.hpp"
+#include "solver/operators/friction.hpp"
+#include "solver/operators/granular_temperature.hpp"
+#include "solver/operators/interface_transport.hpp"
+#include "solver/operators/interphase_drag.hpp"
+#include "solver/operators/rheology.hpp"
+#include "solver/operators/viscosity.hpp"
+#include "solver/run/state.hpp"
+#include "solver/run/stopwatch.hpp"
+
+namespace granvof {
+
+struct StepReport {
+  bool accepted = false;
+  std::string refused_because;  // empty if accepted
+  PressureReport pressure;
+  linear::Report friction;
+  double liquid_left = 0.0;          // volume that left through the open top [m3]
+  double kinematic_viscosity = 0.0;  // largest of the fluid, LES included [m2/s]
+};
+
+class TimeStep {
+ public:
+  TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary, const Communicator& communicator);
+
+  // Tries one step from `now` (ghosts filled) to `next`. `now` is never touched; `next` is meaningful, with
+  // ghosts filled, only if the report says accepted.
+  StepReport advance(const State& now, double dt, State& next);
+
+  const Stopwatch& cost() const { return cost_; }
+
+ private:
+  void predict(const State& now, double dt);
+  void apply_friction(const State& now, double dt, State& next, StepReport& report);
+  std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
+
+  const Grid& grid_;
+  const Scene& scene_;
+  const Boundary& boundary_;
+  Aperture aperture_;
+  FaceInertia inertia_;
+  InterphaseDrag drag_;
+  Rheology rheology_;
+  FluidViscosity viscosity_;
+  Friction friction_;
+  CoupledPressure pressure_;
+  InterfaceTransport interface_;
+  GranularTemperature temperature_;
+  StrainRate strain_;
+  FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
+  FaceField mass_, rhs_;                 // of the implicit solid momentum
+  FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]
+  double kinematic_viscosity_ = 0.0;
+  Stopwatch cost_;
+};
+
+}  // namespace granvof
