@@ -1,0 +1,54 @@
+// Coulomb friction, eq (17).
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solver/closures/contact_friction.hpp"
+
+namespace granvof::closures {
+namespace {
+
+constexpr double pressure = 100.0;  // [Pa]
+constexpr double eta = 0.4;
+constexpr double n = 1e5;  // [s]
+
+// Shear stress [Pa] of a simple shear of rate G = du/dy: S_xy = G/2, ||S|| = sqrt(S:S/2) = G/2, tau_xy = 2 mu
+// S_xy.
+double shear_stress(double rate) {
+  return friction_viscosity(pressure, eta, n, 0.5 * rate) * rate;
+}
+
+TEST(ContactFriction, Value) {
+  // 100 * 0.4 * (1 - exp(-2)) / (2 * 2e-5)
+  EXPECT_NEAR(friction_viscosity(pressure, eta, n, 2e-5), 864664.7167633872, 1e-6);
+}
+
+TEST(ContactFriction, FastShearIsCoulombsLaw) {
+  for (const double rate : {0.01, 1.0, 1e3}) EXPECT_NEAR(shear_stress(rate), eta * pressure, 1e-10) << rate;
+}
+
+TEST(ContactFriction, SlowShearIsAViscousFluid) {
+  EXPECT_NEAR(friction_viscosity(pressure, eta, n, 0.0), 0.5 * pressure * eta * n, 1e-6);
+  // The series is used where the exponential would lose digits; both must meet.
+  const double edge = 1e-8 / n;
+  EXPECT_NEAR(
+      friction_viscosity(pressure, eta, n, 0.999 * edge) / friction_viscosity(pressure, eta, n, 1.001 * edge),
+      1.0, 1e-10);
+}
+
+TEST(ContactFriction, StressGrowsWithRateAndNeverExceedsYield) {
+  double previous = 0.0;
+  for (double rate = 1e-12; rate < 1e3; rate *= 2.0) {
+    EXPECT_GE(shear_stress(rate), previous) << rate;
+    EXPECT_LE(shear_stress(rate), eta * pressure * (1.0 + 1e-14)) << rate;
+    previous = shear_stress(rate);
+  }
+}
+
+TEST(ContactFriction, VanishesWithoutPressureOrFriction) {
+  EXPECT_EQ(friction_viscosity(0.0, eta, n, 1.0), 0.0);
+  EXPECT_EQ(friction_viscosity(pressure, 0.0, n, 1.0), 0.0);
+}
+
+}  // namespace
+}  // namespace granvof::closures

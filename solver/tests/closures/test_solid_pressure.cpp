@@ -1,0 +1,88 @@
+// Total solid pressure and its slope, eqs (11)-(15).
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solver/closures/solid_pressure.hpp"
+#include "solver/tests/closures/derivative.hpp"
+
+namespace granvof::closures {
+namespace {
+
+const Contact paper;
+constexpr double theta = 1e-4;  // [m2/s2]
+constexpr double e = 0.3;
+constexpr double rho_s = 2500.0;  // [kg/m3]
+
+double kinetic(double f) {
+  return kinetic_pressure(f, theta, e, radial_distribution(f, paper.solid_fraction_max), rho_s);
+}
+
+TEST(SolidPressure, WithoutThetaOnlyTheElasticPartIsLeft) {
+  for (const double f : {0.0, 0.3, 0.57, 0.6, 0.64}) {
+    EXPECT_EQ(solid_pressure(f, 0.0, e, rho_s, paper, true).value, elastic_pressure(f, paper).value) << f;
+    EXPECT_EQ(enduring_pressure(f, 0.0, e, rho_s, paper, true), elastic_pressure(f, paper).value) << f;
+  }
+}
+
+TEST(SolidPressure, KineticAndDensePartTogetherAreTheLarger) {
+  for (double f = 0.01; f < 0.66; f += 0.01) {
+    const double dense = dense_pressure(f, theta, e, rho_s, paper).value;
+    const double expected = elastic_pressure(f, paper).value + std::max(kinetic(f), dense);
+    EXPECT_NEAR(solid_pressure(f, theta, e, rho_s, paper, true).value, expected, 1e-12 * expected) << f;
+    EXPECT_NEAR(solid_pressure(f, theta, e, rho_s, paper, false).value,
+                elastic_pressure(f, paper).value + kinetic(f), 1e-12 * expected)
+        << f;
+  }
+}
+
+TEST(SolidPressure, DenseFlowPressureTakesOverInADenseBed) {
+  // The check above must see both cases.
+  EXPECT_LT(dense_pressure(0.3, theta, e, rho_s, paper).value, kinetic(0.3));
+  EXPECT_GT(dense_pressure(0.59, theta, e, rho_s, paper).value, kinetic(0.59));
+}
+
+TEST(SolidPressure, EnduringPartIsWhatKineticTheoryLeaves) {
+  for (const bool dilatancy : {true, false}) {
+    for (double f = 0.01; f < 0.66; f += 0.01) {
+      const double total = solid_pressure(f, theta, e, rho_s, paper, dilatancy).value;
+      EXPECT_NEAR(enduring_pressure(f, theta, e, rho_s, paper, dilatancy), total - kinetic(f), 1e-12 * total)
+          << f;
+    }
+  }
+}
+
+TEST(SolidPressure, SlopeIsTheDerivative) {
+  for (const bool dilatancy : {true, false}) {
+    const auto pressure = [dilatancy](double f) {
+      return solid_pressure(f, theta, e, rho_s, paper, dilatancy).value;
+    };
+    for (const double f : {0.1, 0.3, 0.5, 0.56, 0.575, 0.59, 0.6, 0.61, 0.625, 0.64}) {
+      const double expected = std::max(test::derivative(pressure, f, 1e-5), least_solid_pressure_slope);
+      EXPECT_NEAR(solid_pressure(f, theta, e, rho_s, paper, dilatancy).slope, expected, 1e-5 * expected)
+          << f << (dilatancy ? " with" : " without") << " dilatancy pressure";
+    }
+  }
+}
+
+TEST(SolidPressure, SlopeNeverVanishes) {
+  EXPECT_EQ(solid_pressure(0.0, 0.0, e, rho_s, paper, true).value, 0.0);
+  for (double f = 0.0; f < 0.7; f += 0.01)
+    EXPECT_GE(solid_pressure(f, 0.0, e, rho_s, paper, true).slope, least_solid_pressure_slope);
+}
+
+TEST(SolidPressure, IsContinuousAndDoesNotFall) {
+  for (const bool dilatancy : {true, false}) {
+    double previous = 0.0;
+    for (double f = 1e-5; f < 0.66; f += 1e-5) {
+      const PressureAndSlope p = solid_pressure(f, theta, e, rho_s, paper, dilatancy);
+      ASSERT_GE(p.value, previous * (1.0 - 1e-14)) << f;
+      ASSERT_LE(p.value - previous, 2e-5 * p.slope + 1e-3 * p.value + 1e-6) << f;
+      previous = p.value;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace granvof::closures
