@@ -1,7 +1,9 @@
 #include "solver/output/fields_file.hpp"
 
+#include <cerrno>
 #include <cstdint>
 #include <stdexcept>
+#include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -232,16 +234,16 @@ bool FieldsFile::join() {
   std::error_code ignored;
   try {
     const hdf5::QuietErrors quiet;
+    reserve_for_joining(draft);
     const auto source = hdf5::open_for_reading(path);
-    hdf5::Handle target(H5Fcreate(draft.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-    if (target < 0) return false;
+    auto target = hdf5::open_for_writing(draft);
     write_file_attributes(target);
     for (std::size_t index = 0; index < instants_.size(); ++index) {
       copy_group(source, group_name(index), target, group_name(index));
     }
-    if (!target.close()) throw std::runtime_error("not written");
+    if (!target.close()) throw OutputError("write", draft, hdf5::last_error());
     const Descriptor written(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!written.valid()) throw std::runtime_error("not written");
+    if (!written.valid()) throw OutputError("write", draft, "it has gone");
     sync(written, draft);
     rename_into_place(path);
   } catch (const std::runtime_error&) {
@@ -250,6 +252,19 @@ bool FieldsFile::join() {
   }
   fs::remove_all(directory_ / pieces_directory, ignored);
   return true;
+}
+
+// Makes `draft` an empty HDF5 file with room on the disk for all instants: HDF5 1.10 crashes when the disk
+// fills up while it writes, so that a full disk must show before. HDF5 cuts off what it does not use.
+void FieldsFile::reserve_for_joining(const fs::path& draft) const {
+  std::uintmax_t bytes = 0;
+  for (std::size_t index = 0; index < instants_.size(); ++index) bytes += fs::file_size(piece(index)) + 4096;
+  const Descriptor file(::open(draft.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!file.valid()) throw OutputError("write", draft, std::generic_category().message(errno));
+  write_all(file, hdf5::content_of(hdf5::create_in_memory()), draft);
+  if (const int error = ::posix_fallocate(file.get(), 0, static_cast<off_t>(bytes)); error != 0) {
+    throw OutputError("write", draft, std::generic_category().message(error));
+  }
 }
 
 std::vector<double> read_field_times(const fs::path& fields_h5) {

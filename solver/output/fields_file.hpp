@@ -37,6 +37,7 @@ class FieldsFile {
   void write_index() const;
   void write_file_attributes(std::int64_t file) const;
   std::string xdmf() const;
+  void reserve_for_joining(const std::filesystem::path& draft) const;
 
   struct Instant {
     double time = 0.0;

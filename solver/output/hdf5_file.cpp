@@ -72,6 +72,8 @@ std::string last_error() {
 Handle create_in_memory() {
   const Handle access(checked(H5Pcreate(H5P_FILE_ACCESS), "property list"), H5Pclose);
   checked(H5Pset_fapl_core(access, memory_increment, false), "memory driver");
+  // The layout of HDF5 1.8 keeps a checksum of all that describes the data.
+  checked(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "file version");
   return {checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), "file in memory"), H5Fclose};
 }
 
@@ -81,6 +83,12 @@ std::string content_of(const Handle& file) {
   std::string content(static_cast<std::size_t>(size), '\0');
   checked(H5Fget_file_image(file, content.data(), content.size()), "file in memory");
   return content;
+}
+
+Handle open_for_writing(const std::filesystem::path& path) {
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  if (id < 0) throw OutputError("write", path, last_error());
+  return {id, H5Fclose};
 }
 
 Handle open_for_reading(const std::filesystem::path& path) {

@@ -57,7 +57,8 @@ std::string last_error();
 // Creates a file that exists in memory only. content_of() gives the bytes that it would have on disk.
 Handle create_in_memory();
 std::string content_of(const Handle& file);
-// Throws OutputError.
+// An existing file. Throws OutputError.
+Handle open_for_writing(const std::filesystem::path& path);
 Handle open_for_reading(const std::filesystem::path& path);
 
 // Everything below throws std::runtime_error with HDF5's message; callers add the path.

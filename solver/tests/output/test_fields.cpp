@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/fields_file.hpp"
+#include "solver/output/output_error.hpp"
+#include "solver/tests/output/samples.hpp"
+
+using namespace granvof;
+using namespace granvof::test;
+
+namespace {
+
+void expect_same(const CellFields& read, const CellFields& written) {
+  EXPECT_EQ(read.time, written.time);
+  EXPECT_EQ(read.cells, written.cells);
+  EXPECT_EQ(read.spacing, written.spacing);
+  EXPECT_EQ(read.f_s, written.f_s);
+  EXPECT_EQ(read.alpha, written.alpha);
+  EXPECT_EQ(read.p_c, written.p_c);
+  EXPECT_EQ(read.p_s, written.p_s);
+  EXPECT_EQ(read.theta, written.theta);
+  EXPECT_EQ(read.phi, written.phi);
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::vector<double> zero(written.f_s.size(), 0.0);
+    EXPECT_EQ(read.u_s[d], written.u_s[d].empty() ? zero : written.u_s[d]);
+    EXPECT_EQ(read.u_c[d], written.u_c[d].empty() ? zero : written.u_c[d]);
+  }
+}
+
+class FieldsFileOf : public testing::TestWithParam<int> {
+ protected:
+  Scene scene() const { return GetParam() == 2 ? small_scene() : small_scene_3d(); }
+};
+
+TEST_P(FieldsFileOf, ReadsBackWhatWasWrittenLinkedAndJoined) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "fields.h5";
+  auto file = FieldsFile::create(directory.path(), scene());
+  EXPECT_TRUE(read_field_times(path).empty());
+  auto first = numbered_fields(scene(), 0.0);
+  auto second = numbered_fields(scene(), 1.0 / 3.0);
+  second.p_s = second.phi;
+  second.f_s[1] = 0.5;
+  file.append(first);
+  file.append(second);
+  const auto check = [&] {
+    EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0, 1.0 / 3.0}));
+    expect_same(read_fields(path, 0), first);
+    expect_same(read_fields(path, 1), second);
+    EXPECT_THROW(read_fields(path, 2), OutputError);
+  };
+  check();
+  ASSERT_TRUE(file.join());
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "fields"));
+  check();
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, FieldsFileOf, testing::Values(2, 3));
+
+TEST(FieldsFile, ResumeRemovesLaterInstantsLinkedOrJoined) {
+  const auto scene = small_scene();
+  for (const bool joined : {false, true}) {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "fields.h5";
+    auto first = FieldsFile::create(directory.path(), scene);
+    for (const double t : {0.0, 0.1, 0.2, 0.3}) first.append(numbered_fields(scene, t));
+    if (joined) {
+      ASSERT_TRUE(first.join());
+    }
+    auto file = FieldsFile::resume(directory.path(), scene, 0.1);
+    EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0, 0.1}));
+    file.append(numbered_fields(scene, 0.25));
+    EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0, 0.1, 0.25}));
+    expect_same(read_fields(path, 1), numbered_fields(scene, 0.1));
+    EXPECT_FALSE(std::filesystem::exists(directory.path() / "fields" / "t0003.h5"));
+    EXPECT_EQ(read_file(directory.path() / "fields.xdmf").find("t0003"), std::string::npos);
+    ASSERT_TRUE(file.join());
+    expect_same(read_fields(path, 2), numbered_fields(scene, 0.25));
+  }
+}
+
+TEST(FieldsFile, AFullDiskIsReportedAndLeavesTheEarlierInstants) {
+  const auto scene = make_scene(2, {100, 100, 1}, {1.0, 1.0, 1.0});
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "fields.h5";
+  auto file = FieldsFile::create(directory.path(), scene);
+  file.append(numbered_fields(scene, 0.0));
+  {
+    const FullDisk full(10000);
+    const auto text = message_of<OutputError>([&] { file.append(numbered_fields(scene, 1.0)); });
+    EXPECT_NE(text.find("t0001.h5: File too large"), std::string::npos) << text;
+    EXPECT_FALSE(file.join());
+  }
+  EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0}));
+  expect_same(read_fields(path, 0), numbered_fields(scene, 0.0));
+  file.append(numbered_fields(scene, 1.0));
+  EXPECT_TRUE(file.join());
+  expect_same(read_fields(path, 1), numbered_fields(scene, 1.0));
+}
+
+TEST(FieldsFile, RefusesArraysOfAnotherSize) {
+  const auto scene = small_scene();
+  const TemporaryDirectory directory;
+  auto file = FieldsFile::create(directory.path(), scene);
+  auto fields = numbered_fields(scene, 0.0);
+  fields.u_s[1].clear();
+  EXPECT_NE(message_of<std::invalid_argument>([&] { file.append(fields); }).find("u_s"), std::string::npos);
+  EXPECT_THROW(file.append(numbered_fields(small_scene_3d(), 0.0)), std::invalid_argument);
+  EXPECT_TRUE(read_field_times(directory.path() / "fields.h5").empty());
+}
+
+TEST(FieldsFile, ReadingADamagedOrMissingFileNamesIt) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "fields.h5";
+  EXPECT_NE(message_of<OutputError>([&] { read_field_times(path); }).find(path.string()), std::string::npos);
+  write_file_atomically(path, "not HDF5");
+  EXPECT_NE(message_of<OutputError>([&] { read_field_times(path); }).find(path.string()), std::string::npos);
+  EXPECT_THROW(FieldsFile::resume(directory.path(), small_scene(), 0.0), OutputError);
+}
+
+}  // namespace
