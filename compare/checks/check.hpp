@@ -1,0 +1,81 @@
+// One row of the table of checks (compare/checks.toml), as data.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/metrics/curve.hpp"
+
+namespace granvof::compare {
+
+// How often a row is checked; each includes those before it.
+enum class Frequency { short_, verify, nightly, weekly };
+
+// Where the reference comes from.
+enum class ReferenceKind { theory, published, dem, regression };
+
+// What the value is asked to be, relative to the reference.
+enum class Relation { equal, at_most, at_least };
+
+// Parameters of a metric; which of them it takes stands in the registry (checks/registry.hpp).
+struct Parameters {
+  std::optional<Window> window;        // of time [s], or of T where the metric says so
+  std::optional<double> at;            // an instant, t [s] or T
+  std::optional<double> quiet;         // magnitude below which a signal counts as none
+  std::optional<std::string> against;  // id of a second run
+};
+
+struct Reference {
+  ReferenceKind kind = ReferenceKind::theory;
+  std::string source;                  // equation, citation or record, as shown in the report
+  std::optional<double> value;         // typed number, in the metric's unit
+  std::optional<std::string> formula;  // name in checks/theory.hpp, computed from the scene
+  std::optional<std::string> record;   // scene of reference/results whose variants carry the same metric
+  double band = 0.0;                   // uncertainty of the reference (half width), in the metric's unit
+};
+
+struct Tolerance {
+  double value = 0.0;     // >= 0
+  bool relative = false;  // to the magnitude of the reference
+  std::string unit;       // of an absolute tolerance; equals the metric's unit
+};
+
+// A failure that is known: its cause, and how far off it may be before it counts as worse.
+struct ExpectedFailure {
+  std::string reason;
+  double distance = 0.0;  // largest distance from the tolerance's edge to be accepted as known, metric's unit
+};
+
+struct Check {
+  std::string id;   // unique
+  std::string run;  // id of the run it reads
+  std::string metric;
+  Parameters parameters;
+  Reference reference;
+  Relation relation = Relation::equal;
+  Tolerance tolerance;
+  bool asserted = true;  // false: reported with its verdict, which does not count
+  Frequency frequency = Frequency::verify;
+  std::optional<ExpectedFailure> expected_failure;
+  int line = 0;  // in the table
+};
+
+// A run the table needs: `granvof run <case_file> --set ... --out <runs>/<id>`.
+struct PlannedRun {
+  std::string id;                // directory below out/runs
+  std::string case_name;         // file stem in cases/
+  std::vector<std::string> set;  // overrides "key=value"
+};
+
+struct Table {
+  std::vector<PlannedRun> runs;
+  std::vector<Check> checks;
+};
+
+std::string_view name_of(Frequency frequency);
+std::string_view name_of(ReferenceKind kind);
+std::string_view name_of(Relation relation);
+
+}  // namespace granvof::compare

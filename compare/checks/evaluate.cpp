@@ -1,0 +1,164 @@
+#include "compare/checks/evaluate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compare/checks/registry.hpp"
+#include "compare/checks/theory.hpp"
+#include "compare/input/records.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+struct ReferenceValue {
+  std::optional<double> value;
+  double band = 0.0;
+  Verdict without = Verdict::not_run;  // the verdict where there is no value
+  std::string note;
+};
+
+// Mean over the recorded variants; the band is the larger of the stated one and half their spread.
+ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
+                                  const std::vector<LoadedRun>& variants, const FindRun& find) {
+  ReferenceValue reference;
+  if (variants.empty()) {
+    reference.note = fmt::format("no record of '{}'", *check.reference.record);
+    return reference;
+  }
+  std::vector<double> values;
+  for (const LoadedRun& variant : variants) {
+    if (!variant.run) {
+      reference.note = variant.reason;
+      if (variant.state == RunState::stale) reference.without = Verdict::stale;
+      continue;
+    }
+    const Measured measured = metric.function(*variant.run, check.parameters, find);
+    if (measured.value)
+      values.push_back(*measured.value);
+    else
+      reference.note = fmt::format("{}: {}", variant.run->directory.string(), measured.note);
+  }
+  if (values.empty()) return reference;
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  reference.value = sum / static_cast<double>(values.size());
+  reference.band = std::max(check.reference.band, 0.5 * (*high - *low));
+  return reference;
+}
+
+ReferenceValue stated_reference(const Check& check, const Run& run) {
+  ReferenceValue reference;
+  reference.band = check.reference.band;
+  if (check.reference.formula) {
+    reference.value = find_formula(*check.reference.formula)->function(run, check.parameters);
+    if (!reference.value) reference.note = "the scene lacks what the formula needs";
+  } else {
+    reference.value = check.reference.value;
+  }
+  return reference;
+}
+
+// A run that the row needs and that is not there, or holds nothing to measure, is never a pass.
+Result without_value(Result result, Verdict verdict, std::string note) {
+  result.judgement.verdict = verdict;
+  result.judgement.unexpected = result.check.asserted;
+  result.note = std::move(note);
+  return result;
+}
+
+Result evaluate_check(const Check& check, const Evaluation& evaluation, const RunSummary& summary,
+                      const std::map<std::string, std::vector<LoadedRun>>& records) {
+  const MetricEntry& metric = *find_metric(check.metric);
+  Result result;
+  result.check = check;
+  result.unit = metric.unit;
+  const auto own = evaluation.usable.find(check.run);
+  if (own == evaluation.usable.end())
+    return without_value(std::move(result),
+                         summary.state == RunState::stale ? Verdict::stale : Verdict::not_run,
+                         summary.reason);
+  const FindRun find = [&](std::string_view id) -> const Run* {
+    const auto found = evaluation.usable.find(std::string(id));
+    return found == evaluation.usable.end() ? nullptr : &found->second;
+  };
+  const Run& run = own->second;
+  const Measured measured = metric.function(run, check.parameters, find);
+  result.value = measured.value;
+  const ReferenceValue reference =
+      check.reference.record ? recorded_reference(check, metric, records.at(*check.reference.record), find)
+                             : stated_reference(check, run);
+  result.reference = reference.value;
+  result.band = reference.band;
+  result.note = reference.note;
+  if (!measured.value) return without_value(std::move(result), Verdict::differs, measured.note);
+  if (!std::isfinite(*measured.value))
+    return without_value(std::move(result), Verdict::not_run, "refused: the metric is not finite");
+  if (!reference.value) {
+    // A reference that was not recorded, or went stale, is reported and does not turn the exit code.
+    result.judgement.verdict = reference.without;
+    result.judgement.unexpected = check.asserted && !check.reference.record;
+    return result;
+  }
+  result.judgement = judge(*measured.value, *reference.value, reference.band, check);
+  return result;
+}
+
+}  // namespace
+
+int Evaluation::unexpected() const {
+  return static_cast<int>(
+      std::count_if(results.begin(), results.end(), [](const Result& r) { return r.judgement.unexpected; }));
+}
+
+std::vector<Check> due_checks(const Table& table, Frequency frequency) {
+  std::vector<Check> due;
+  for (const Check& check : table.checks)
+    if (check.frequency <= frequency) due.push_back(check);
+  return due;
+}
+
+std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency) {
+  std::set<std::string> needed;
+  for (const Check& check : due_checks(table, frequency)) {
+    needed.insert(check.run);
+    if (check.parameters.against) needed.insert(*check.parameters.against);
+  }
+  std::vector<PlannedRun> due;
+  for (const PlannedRun& run : table.runs)
+    if (needed.contains(run.id)) due.push_back(run);
+  return due;
+}
+
+Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths) {
+  Evaluation evaluation;
+  std::map<std::string, Scene> scenes;
+  for (const PlannedRun& plan : due_runs(table, frequency)) {
+    const Scene scene = load_scene(paths.cases / (plan.case_name + ".toml"), plan.set);
+    scenes.emplace(plan.id, scene);
+    LoadedRun loaded = load_run(paths.runs / plan.id, plan.id, scene);
+    evaluation.runs.push_back({plan, loaded.state, loaded.reason, loaded.facts});
+    if (loaded.run) evaluation.usable.emplace(plan.id, std::move(*loaded.run));
+  }
+  const auto checks = due_checks(table, frequency);
+  std::map<std::string, std::vector<LoadedRun>> records;
+  for (const Check& check : checks) {
+    if (!check.reference.record || records.contains(*check.reference.record)) continue;
+    auto& variants = records[*check.reference.record];
+    variants = load_records(paths.records, *check.reference.record, scenes.at(check.run));
+    for (const LoadedRun& variant : variants)
+      if (variant.run) evaluation.records[*check.reference.record].push_back(*variant.run);
+  }
+  for (const Check& check : checks) {
+    const auto summary = std::find_if(evaluation.runs.begin(), evaluation.runs.end(),
+                                      [&](const RunSummary& run) { return run.plan.id == check.run; });
+    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records));
+  }
+  return evaluation;
+}
+
+}  // namespace granvof::compare

@@ -1,0 +1,56 @@
+// From the table and the runs on disk to one result a row.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/checks/check.hpp"
+#include "compare/checks/verdict.hpp"
+#include "compare/input/run.hpp"
+
+namespace granvof::compare {
+
+struct Paths {
+  std::filesystem::path runs;     // out/runs
+  std::filesystem::path cases;    // cases
+  std::filesystem::path records;  // reference/results
+};
+
+struct Result {
+  Check check;
+  std::string unit;
+  std::optional<double> value;
+  std::optional<double> reference;
+  double band = 0.0;
+  Judgement judgement;
+  std::string note;  // why there is no value or no verdict; empty otherwise
+};
+
+struct RunSummary {
+  PlannedRun plan;
+  RunState state = RunState::missing;
+  std::string reason;
+  std::optional<RunFacts> facts;
+};
+
+struct Evaluation {
+  std::vector<RunSummary> runs;
+  std::vector<Result> results;
+  std::map<std::string, Run> usable;                // the runs that could be read, by id
+  std::map<std::string, std::vector<Run>> records;  // recorded variants that could be read, by record
+
+  int unexpected() const;
+};
+
+// Rows due at `frequency`, in the order of the table.
+std::vector<Check> due_checks(const Table& table, Frequency frequency);
+// The runs those rows read, in the order of the table.
+std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency);
+
+// Throws CaseError if a case file of the table cannot be read.
+Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths);
+
+}  // namespace granvof::compare

@@ -1,0 +1,79 @@
+#include "compare/checks/theory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace granvof::compare {
+namespace {
+
+// A floating bed rests at the loosest packing that carries a load, f_s,min; its solids fix its height.
+struct RestingBed {
+  double solid_fraction;
+  double height;  // H [m]
+};
+
+std::optional<RestingBed> resting_bed(const Scene& scene) {
+  if (!scene.bed) return std::nullopt;
+  const double packing = std::max(scene.contact.solid_fraction_min, scene.bed->solid_fraction);
+  const double dropped = scene.bed->box.upper[1] - scene.bed->box.lower[1];
+  return RestingBed{packing, dropped * scene.bed->solid_fraction / packing};
+}
+
+std::optional<double> density_ratio(const Run& run, const Parameters&) {
+  return run.scene.solid.density / run.scene.liquid.density;
+}
+
+std::optional<double> floating_period(const Run& run, const Parameters&) {
+  const auto bed = resting_bed(run.scene);
+  if (!bed) return std::nullopt;
+  return 2.0 * std::numbers::pi *
+         std::sqrt(run.scene.solid.density * bed->height / (run.scene.liquid.density * run.scene.gravity));
+}
+
+std::optional<double> floating_decay_rate(const Run& run, const Parameters&) {
+  const auto bed = resting_bed(run.scene);
+  if (!bed) return std::nullopt;
+  const Scene& scene = run.scene;
+  const double f_s = bed->solid_fraction;
+  const double f_c = 1.0 - f_s;
+  // The viscous part of (8): the rate is that of the last, slow part of the approach.
+  const double drag =
+      150.0 * f_s * f_s * scene.liquid.viscosity / (f_c * scene.solid.diameter * scene.solid.diameter);
+  const double twice_gamma = drag / (f_s * f_c * scene.liquid.density);
+  const double omega_squared = scene.liquid.density * scene.gravity / (scene.solid.density * bed->height);
+  return omega_squared / twice_gamma;
+}
+
+std::optional<double> solid_fraction_max(const Run& run, const Parameters&) {
+  return run.scene.contact.solid_fraction_max;
+}
+
+constexpr std::array<FormulaEntry, 4> table{{
+    {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
+     density_ratio},
+    {"floating_period", "s",
+     "T = 2 pi sqrt(rho_s H / (rho_l g)) (paper, section 4.3), H = dropped height * f_s / f_s,min",
+     floating_period},
+    {"floating_decay_rate", "1/s",
+     "k = omega^2 / (2 gamma), omega^2 = rho_l g / (rho_s H), 2 gamma = beta / (f_s f_c rho_l), beta of (8) "
+     "for "
+     "slow flow, at f_s,min",
+     floating_decay_rate},
+    {"solid_fraction_max", "-", "f_s,max of (13)", solid_fraction_max},
+}};
+
+}  // namespace
+
+std::span<const FormulaEntry> formulas() {
+  return table;
+}
+
+const FormulaEntry* find_formula(std::string_view name) {
+  const auto* found =
+      std::find_if(table.begin(), table.end(), [&](const FormulaEntry& e) { return e.name == name; });
+  return found == table.end() ? nullptr : found;
+}
+
+}  // namespace granvof::compare

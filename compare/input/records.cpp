@@ -1,0 +1,45 @@
+#include "compare/input/records.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include <fmt/format.h>
+
+namespace granvof::compare {
+namespace {
+
+LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene) {
+  LoadedRun loaded;
+  loaded.state = RunState::refused;
+  try {
+    loaded.facts = read_facts(directory / "record.json");
+    if (loaded.facts->case_hash != scene.reference_hash) {
+      loaded.state = RunState::stale;
+      loaded.reason = fmt::format("the record {} is of case {}, the case is now {}", directory.string(),
+                                  loaded.facts->case_hash, scene.reference_hash);
+      return loaded;
+    }
+    loaded.run = Run{directory.filename().string(), directory, scene, *loaded.facts,
+                     read_series(directory / "series.csv")};
+    loaded.state = RunState::usable;
+  } catch (const std::exception& error) {
+    loaded.reason = fmt::format("refused: {}", error.what());
+  }
+  return loaded;
+}
+
+}  // namespace
+
+std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::string_view name,
+                                    const Scene& scene) {
+  std::vector<std::filesystem::path> variants;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(records / name, missing))
+    if (std::filesystem::exists(entry.path() / "record.json")) variants.push_back(entry.path());
+  std::sort(variants.begin(), variants.end());
+  std::vector<LoadedRun> loaded;
+  for (const auto& variant : variants) loaded.push_back(load_record(variant, scene));
+  return loaded;
+}
+
+}  // namespace granvof::compare

@@ -1,0 +1,121 @@
+#include "compare/input/run.hpp"
+
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/fields_file.hpp"
+#include "solver/output/output_error.hpp"
+
+namespace granvof::compare {
+namespace {
+
+std::string text_of(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+// "was '<line>', is '<line>'" of the first line in which two texts differ.
+std::string first_difference(const std::string& before, const std::string& now) {
+  std::istringstream old_lines(before), new_lines(now);
+  std::string old_line, new_line;
+  for (;;) {
+    const bool more_old = static_cast<bool>(std::getline(old_lines, old_line));
+    const bool more_new = static_cast<bool>(std::getline(new_lines, new_line));
+    if (!more_old) old_line.clear();
+    if (!more_new) new_line.clear();
+    if (old_line != new_line || (!more_old && !more_new))
+      return fmt::format("was '{}', is '{}'", old_line, new_line);
+  }
+}
+
+}  // namespace
+
+std::optional<double> RunFacts::number(std::string_view name) const {
+  const auto found = numbers.find(std::string(name));
+  if (found == numbers.end()) return std::nullopt;
+  return found->second;
+}
+
+RunFacts read_facts(const std::filesystem::path& json_file) {
+  const auto json = nlohmann::json::parse(read_file(json_file), nullptr, false);
+  if (!json.is_object()) throw OutputError("read", json_file, "it is not a JSON object");
+  RunFacts facts;
+  facts.scene = text_of(json, "scene");
+  facts.version = text_of(json, "version");
+  facts.case_hash = text_of(json, "case_hash");
+  facts.resolved_case = text_of(json, "resolved_case");
+  facts.commit = text_of(json, "git_commit");
+  facts.date = text_of(json, "start_date");
+  if (const auto exit = json.find("exit"); exit != json.end() && exit->is_object()) {
+    facts.exit = text_of(*exit, "state");
+    facts.reason = text_of(*exit, "reason");
+  }
+  if (const auto host = json.find("host"); host != json.end() && host->is_object())
+    facts.host = text_of(*host, "cpu_model");
+  for (const auto& [key, value] : json.items())
+    if (value.is_number()) facts.numbers[key] = value.get<double>();
+  return facts;
+}
+
+Curve Run::curve(std::string_view column) const {
+  Curve curve;
+  if (!series.has(column)) return curve;
+  const auto time = series.column("time");
+  const auto value = series.column(column);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (!time[i] || !value[i]) continue;
+    if (!curve.empty() && *time[i] <= curve.time.back()) continue;  // one row an instant
+    curve.time.push_back(*time[i]);
+    curve.value.push_back(*value[i]);
+  }
+  return curve;
+}
+
+std::optional<CellFields> Run::fields_at(double time) const {
+  const auto file = directory / "fields.h5";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  const auto times = read_field_times(file);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (std::abs(times[i] - time) <= 1e-6 * std::max(scene.times.end, std::abs(time)))
+      return read_fields(file, i);
+  return std::nullopt;
+}
+
+LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, const Scene& scene) {
+  LoadedRun loaded;
+  if (!std::filesystem::exists(directory / "run.json")) {
+    loaded.reason = fmt::format("no run in {}", directory.string());
+    return loaded;
+  }
+  try {
+    loaded.state = RunState::refused;
+    loaded.facts = read_facts(directory / "run.json");
+    if (loaded.facts->exit != "finished") {
+      loaded.state = RunState::failed;
+      loaded.reason = fmt::format("the run did not finish: {}{}", loaded.facts->exit,
+                                  loaded.facts->reason.empty() ? "" : ", " + loaded.facts->reason);
+      return loaded;
+    }
+    if (loaded.facts->resolved_case != scene.resolved) {
+      loaded.state = RunState::stale;
+      loaded.reason = "the case has changed since the run: " +
+                      first_difference(loaded.facts->resolved_case, scene.resolved);
+      return loaded;
+    }
+    loaded.run = Run{std::string(id), directory, scene, *loaded.facts, read_series(directory / "series.csv")};
+    if (!loaded.run->series.has("time"))
+      throw OutputError("read", directory / "series.csv", "no column 'time'");
+    loaded.state = RunState::usable;
+  } catch (const std::exception& error) {
+    loaded.run.reset();
+    loaded.reason = fmt::format("refused: {}", error.what());
+  }
+  return loaded;
+}
+
+}  // namespace granvof::compare

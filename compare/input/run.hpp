@@ -1,0 +1,63 @@
+// One run directory (series.csv, fields.h5, run.json), read for comparison together with its scene.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compare/metrics/curve.hpp"
+#include "solver/output/cell_fields.hpp"
+#include "solver/output/series_file.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace granvof::compare {
+
+// What run.json states; a number that is missing or null there is absent from `numbers`.
+struct RunFacts {
+  std::string scene, version, commit, case_hash, resolved_case, host, date;
+  std::string exit, reason;               // "finished", "failed", ... and why
+  std::map<std::string, double> numbers;  // core_seconds, cells, steps, solid_volume_error, ...
+
+  std::optional<double> number(std::string_view name) const;
+};
+
+struct Run {
+  std::string id;
+  std::filesystem::path directory;
+  Scene scene;
+  RunFacts facts;
+  Series series;
+
+  // The defined samples of a column against time [s]; empty if there is no such column.
+  Curve curve(std::string_view column) const;
+  // The fields of the instant `time` [s], if the run wrote one within 1e-6 of its length.
+  std::optional<CellFields> fields_at(double time) const;
+};
+
+// Why a run cannot be compared.
+enum class RunState {
+  usable,
+  missing,  // no such directory
+  failed,   // it did not reach its end
+  refused,  // damaged, or a value in it is not finite
+  stale     // it belongs to another state of its case
+};
+
+struct LoadedRun {
+  RunState state = RunState::missing;
+  std::string reason;             // empty when usable
+  std::optional<RunFacts> facts;  // where run.json could be read
+  std::optional<Run> run;         // set when usable
+};
+
+// Reads a run and checks it: it ended, it holds no NaN, and its case is the one of `scene`.
+// Never throws for what the directory holds.
+LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, const Scene& scene);
+
+// Reads run.json (or a record's record.json). Throws OutputError.
+RunFacts read_facts(const std::filesystem::path& json_file);
+
+}  // namespace granvof::compare

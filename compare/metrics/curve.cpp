@@ -1,0 +1,53 @@
+#include "compare/metrics/curve.hpp"
+
+#include <algorithm>
+
+namespace granvof::compare {
+
+Curve clip(const Curve& curve, Window window) {
+  Curve inside;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve.time[i] < window.begin || curve.time[i] > window.end) continue;
+    inside.time.push_back(curve.time[i]);
+    inside.value.push_back(curve.value[i]);
+  }
+  return inside;
+}
+
+std::optional<double> value_at(const Curve& curve, double time) {
+  if (curve.empty()) return std::nullopt;
+  const double slack = 1e-9 * (curve.time.back() - curve.time.front());
+  if (time < curve.time.front() - slack || time > curve.time.back() + slack) return std::nullopt;
+  const auto after = std::upper_bound(curve.time.begin(), curve.time.end(), time);
+  if (after == curve.time.begin()) return curve.value.front();
+  if (after == curve.time.end()) return curve.value.back();
+  const std::size_t i = static_cast<std::size_t>(after - curve.time.begin());
+  const double share = (time - curve.time[i - 1]) / (curve.time[i] - curve.time[i - 1]);
+  return curve.value[i - 1] + share * (curve.value[i] - curve.value[i - 1]);
+}
+
+std::optional<double> integral(const Curve& curve) {
+  if (curve.size() < 2) return std::nullopt;
+  double sum = 0.0;
+  for (std::size_t i = 1; i < curve.size(); ++i)
+    sum += 0.5 * (curve.value[i] + curve.value[i - 1]) * (curve.time[i] - curve.time[i - 1]);
+  return sum;
+}
+
+std::optional<double> time_mean(const Curve& curve) {
+  const auto area = integral(curve);
+  if (!area) return std::nullopt;
+  return *area / (curve.time.back() - curve.time.front());
+}
+
+std::optional<double> maximum(const Curve& curve) {
+  if (curve.empty()) return std::nullopt;
+  return *std::max_element(curve.value.begin(), curve.value.end());
+}
+
+std::optional<double> minimum(const Curve& curve) {
+  if (curve.empty()) return std::nullopt;
+  return *std::min_element(curve.value.begin(), curve.value.end());
+}
+
+}  // namespace granvof::compare

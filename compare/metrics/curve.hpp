@@ -1,0 +1,43 @@
+// A scalar against time: what every metric is computed from.
+//
+// Only defined samples are in a curve: an undefined value of series.csv (an empty field) is left out, it is
+// neither 0 nor NaN. Times ascend. All quantities in SI units.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace granvof::compare {
+
+struct Curve {
+  std::vector<double> time;   // [s], or another stated abscissa, strictly ascending
+  std::vector<double> value;  // same size
+
+  bool empty() const { return time.empty(); }
+  std::size_t size() const { return time.size(); }
+};
+
+// An interval of the abscissa, both ends included.
+struct Window {
+  double begin = 0.0;
+  double end = 0.0;
+};
+
+// The samples of `curve` inside `window`.
+Curve clip(const Curve& curve, Window window);
+
+// Linear interpolation at `time`; nothing outside the sampled range (no extrapolation), except that a time
+// beyond an end by less than 1e-9 of the range counts as that end.
+std::optional<double> value_at(const Curve& curve, double time);
+
+// Integral over the samples by the trapezoidal rule; nothing for fewer than two samples.
+std::optional<double> integral(const Curve& curve);
+
+// Time mean (integral over duration), so that uneven sampling does not weigh in; nothing for fewer than two.
+std::optional<double> time_mean(const Curve& curve);
+
+// Largest and smallest value; nothing for an empty curve.
+std::optional<double> maximum(const Curve& curve);
+std::optional<double> minimum(const Curve& curve);
+
+}  // namespace granvof::compare

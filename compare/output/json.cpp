@@ -1,0 +1,140 @@
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/input/curves.hpp"
+#include "compare/output/write.hpp"
+
+namespace granvof::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_number(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::string_view name_of_state(RunState state) {
+  switch (state) {
+    case RunState::usable:
+      return "usable";
+    case RunState::missing:
+      return "missing";
+    case RunState::failed:
+      return "failed";
+    case RunState::refused:
+      return "refused";
+    case RunState::stale:
+      return "stale";
+  }
+  return "refused";
+}
+
+Json json_run(const RunSummary& summary) {
+  Json run{{"id", summary.plan.id},
+           {"case", summary.plan.case_name},
+           {"set", summary.plan.set},
+           {"state", name_of_state(summary.state)},
+           {"reason", summary.reason}};
+  if (!summary.facts) return run;
+  run["version"] = summary.facts->version;
+  run["commit"] = summary.facts->commit;
+  run["date"] = summary.facts->date;
+  run["case_hash"] = summary.facts->case_hash;
+  run["host"] = summary.facts->host;
+  run["exit"] = summary.facts->exit;
+  run["numbers"] = summary.facts->numbers;
+  return run;
+}
+
+Json json_result(const Result& result) {
+  const Check& check = result.check;
+  Json json{{"id", check.id},
+            {"scene", check.run},
+            {"metric", metric_label(check)},
+            {"value", json_number(result.value)},
+            {"unit", result.unit},
+            {"reference", json_number(result.reference)},
+            {"reference_kind", name_of(check.reference.kind)},
+            {"reference_source", check.reference.source},
+            {"band", result.band},
+            {"tolerance", tolerance_text(check)},
+            {"verdict", name_of(result.judgement.verdict)},
+            {"unexpected", result.judgement.unexpected},
+            {"asserted", check.asserted},
+            {"frequency", name_of(check.frequency)},
+            {"note", result.note}};
+  const bool judged = result.value && result.reference;
+  json["deviation"] = judged ? Json(result.judgement.deviation) : Json(nullptr);
+  json["distance"] = judged ? Json(result.judgement.distance) : Json(nullptr);
+  if (check.expected_failure)
+    json["expected_failure"] = {{"reason", check.expected_failure->reason},
+                                {"distance", check.expected_failure->distance}};
+  return json;
+}
+
+Json json_curve(const Curve& curve) {
+  return {{"x", curve.time}, {"y", curve.value}};
+}
+
+Json json_curves(const Run& run) {
+  Json curves = Json::object();
+  const auto add = [&](const char* name, const Curve& curve) {
+    if (!curve.empty()) curves[name] = json_curve(curve);
+  };
+  add("run_out", run_out_curve(run));
+  add("excess_base_pressure", excess_base_pressure(run));
+  for (const char* column :
+       {"front_dense", "y_c", "y_solid_mean", "interface_height", "bed_height_equivalent"})
+    add(column, run.curve(column));
+  return curves;
+}
+
+Json json_scene(const Scene& scene) {
+  Json json{{"title", scene.title},
+            {"tank", scene.tank},
+            {"dimensions", scene.dimensions},
+            {"cells", scene.grid.cells},
+            {"spacing", scene.grid.spacing},
+            {"gravity", scene.gravity},
+            {"density_ratio", scene.solid.density / scene.liquid.density},
+            {"drag", scene.model.drag},
+            {"end", scene.times.end},
+            {"time_unit", scene.times.unit},
+            {"field_times", scene.times.field_times}};
+  if (scene.bed)
+    json["bed"] = {{"lower", scene.bed->box.lower},
+                   {"upper", scene.bed->box.upper},
+                   {"solid_fraction", scene.bed->solid_fraction}};
+  return json;
+}
+
+}  // namespace
+
+std::string results_json(const Evaluation& evaluation, Frequency frequency, const std::string& date) {
+  Json json{{"date", date}, {"frequency", name_of(frequency)}, {"unexpected", evaluation.unexpected()}};
+  std::map<std::string, int> counts;
+  for (const Result& result : evaluation.results) ++counts[std::string(name_of(result.judgement.verdict))];
+  json["counts"] = counts;
+  json["runs"] = Json::array();
+  for (const RunSummary& summary : evaluation.runs) json["runs"].push_back(json_run(summary));
+  json["results"] = Json::array();
+  for (const Result& result : evaluation.results) json["results"].push_back(json_result(result));
+  return json.dump(1) + "\n";
+}
+
+std::string curves_json(const Evaluation& evaluation) {
+  Json json{{"runs", Json::object()}, {"records", Json::object()}};
+  for (const auto& [id, run] : evaluation.usable)
+    json["runs"][id] = {{"scene", json_scene(run.scene)},
+                        {"directory", run.directory.string()},
+                        {"curves", json_curves(run)}};
+  for (const auto& [name, variants] : evaluation.records)
+    for (const Run& run : variants)
+      json["records"][name][run.id] = {{"scene", json_scene(run.scene)},
+                                       {"directory", run.directory.string()},
+                                       {"curves", json_curves(run)}};
+  return json.dump() + "\n";
+}
+
+}  // namespace granvof::compare

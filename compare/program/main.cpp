@@ -1,0 +1,95 @@
+// granvof-compare: judges runs by the table of checks. Exit code 0: nothing unexpected; 1: an unexpected
+// verdict; 2: bad input.
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "compare/checks/evaluate.hpp"
+#include "compare/checks/table.hpp"
+#include "compare/output/write.hpp"
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/run_record.hpp"
+
+namespace {
+
+using namespace granvof;
+using namespace granvof::compare;
+
+struct Options {
+  Paths paths{"out/runs", "cases", "reference/results"};
+  std::filesystem::path table = "compare/checks.toml";
+  std::filesystem::path out = "out/verify";
+  Frequency frequency = Frequency::verify;
+};
+
+const std::map<std::string, Frequency> frequencies{{"verify", Frequency::verify},
+                                                   {"short", Frequency::short_},
+                                                   {"nightly", Frequency::nightly},
+                                                   {"weekly", Frequency::weekly}};
+
+int print_plan(const Options& options) {
+  for (const PlannedRun& run : due_runs(read_table(options.table), options.frequency)) {
+    fmt::print("{}\t{}", run.id, run.case_name);
+    for (const std::string& assignment : run.set) fmt::print("\t{}", assignment);
+    fmt::print("\n");
+  }
+  return 0;
+}
+
+int check_runs(const Options& options) {
+  const Table table = read_table(options.table);
+  const Evaluation evaluation = evaluate(table, options.frequency, options.paths);
+  std::filesystem::create_directories(options.out);
+  const auto results = options.out / "results.json";
+  // Kept for the report, which shows what changed since the last comparison.
+  if (std::filesystem::exists(results))
+    write_file_atomically(options.out / "results.previous.json", read_file(results));
+  write_file_atomically(results, results_json(evaluation, options.frequency, iso_date_now()));
+  write_file_atomically(options.out / "results.csv", results_csv(evaluation));
+  write_file_atomically(options.out / "junit.xml", junit_xml(evaluation));
+  write_file_atomically(options.out / "curves.json", curves_json(evaluation));
+  fmt::print("{}", terminal_table(evaluation));
+  return evaluation.unexpected() == 0 ? 0 : 1;
+}
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("--checks", options.table, "the table of checks")->capture_default_str();
+  command.add_option("--frequency", options.frequency, "rows due at: verify, short, nightly or weekly")
+      ->transform(CLI::CheckedTransformer(frequencies));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Judges runs by the table of checks"};
+  app.require_subcommand(1);
+  Options options;
+
+  CLI::App* check =
+      app.add_subcommand("check", "judge the runs, write results.{json,csv}, junit.xml, curves.json");
+  add_common(*check, options);
+  check->add_option("--runs", options.paths.runs, "run directories")->capture_default_str();
+  check->add_option("--cases", options.paths.cases, "case files")->capture_default_str();
+  check->add_option("--records", options.paths.records, "recorded DEM-VOF results")->capture_default_str();
+  check->add_option("--out", options.out, "where the results go")->capture_default_str();
+
+  CLI::App* plan =
+      app.add_subcommand("plan", "print the runs the table needs: id, case and overrides, tab-separated");
+  add_common(*plan, options);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return *plan ? print_plan(options) : check_runs(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "granvof-compare: {}\n", error.what());
+    return 2;
+  }
+}

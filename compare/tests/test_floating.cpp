@@ -1,0 +1,91 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "compare/metrics/decay_rate.hpp"
+#include "compare/metrics/immersion.hpp"
+#include "compare/metrics/period.hpp"
+
+namespace granvof::compare {
+namespace {
+
+template <typename Function>
+Curve sampled(double end, int samples, Function function) {
+  Curve curve;
+  for (int i = 0; i <= samples; ++i) {
+    curve.time.push_back(end * i / samples);
+    curve.value.push_back(function(curve.time.back()));
+  }
+  return curve;
+}
+
+Curve constant(double value) {
+  return sampled(6.0, 60, [&](double) { return value; });
+}
+
+TEST(Immersion, ABedDeeperInTheWaterIsMoreImmersed) {
+  // Bed of height 0.1 centred 0.03 above the interface: 0.02 of it is below.
+  const auto high = immersion(constant(0.13), constant(0.1), constant(0.10), {3.0, 6.0});
+  ASSERT_TRUE(high);
+  EXPECT_NEAR(high->share(), 0.2, 1e-12);
+  const auto deep = immersion(constant(0.07), constant(0.1), constant(0.10), {3.0, 6.0});
+  EXPECT_NEAR(deep->share(), 0.8, 1e-12);
+}
+
+TEST(Immersion, IsUndefinedWhileTheBedIsLoose) {
+  EXPECT_FALSE(immersion(Curve{}, constant(0.1), constant(0.1), {3.0, 6.0}));
+  EXPECT_FALSE(immersion(constant(0.1), constant(0.1), Curve{}, {3.0, 6.0}));
+}
+
+TEST(Period, OfADampedSineOnAnOffset) {
+  const Curve curve = sampled(6.0, 600, [](double t) {
+    return 0.1 + 0.01 * std::exp(-0.1 * t) * std::sin(2.0 * std::numbers::pi * t / 0.374);
+  });
+  const auto found = oscillation(curve, {1.0, 6.0});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->period, 0.374, 0.374 * 1e-3);
+  EXPECT_GE(found->cycles, 12);
+}
+
+TEST(Period, RipplesOnAFlankAreNotCycles) {
+  const Curve curve = sampled(10.0, 5000, [](double t) {
+    return std::sin(2.0 * std::numbers::pi * t) + 0.08 * std::sin(2.0 * std::numbers::pi * 20.0 * t);
+  });
+  const auto found = oscillation(curve, {0.0, 10.0});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->period, 1.0, 0.01);
+}
+
+TEST(Period, NeedsTwoCycles) {
+  const auto sine = [](double t) { return std::sin(2.0 * std::numbers::pi * t / 4.0); };
+  EXPECT_FALSE(oscillation(sampled(6.0, 600, sine), {0.0, 6.0}));
+  EXPECT_FALSE(oscillation(constant(1.0), {0.0, 6.0}));
+  EXPECT_FALSE(oscillation(Curve{}, {0.0, 6.0}));
+}
+
+TEST(DecayRate, FindsRateAndRestWithoutBeingToldTheRest) {
+  const Curve curve = sampled(4.0, 400, [](double t) { return 0.05 - 0.02 * std::exp(-2.4 * t); });
+  const auto found = exponential_approach(curve, {0.5, 2.0});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->rate, 2.4, 1e-6);
+  EXPECT_NEAR(found->rest, 0.05, 1e-9);
+  EXPECT_NEAR(found->amplitude, -0.02 * std::exp(-2.4 * 0.5), 1e-9);
+  EXPECT_LT(found->residual, 1e-9);
+}
+
+TEST(DecayRate, OfAStraightLineOrAConstantIsUndefined) {
+  EXPECT_FALSE(exponential_approach(sampled(4.0, 400, [](double t) { return 3.0 * t; }), {0.0, 4.0}));
+  EXPECT_FALSE(exponential_approach(Curve{{0.0, 1.0}, {1.0, 0.5}}, {0.0, 4.0}));
+}
+
+TEST(DecayRate, EnvelopeOfADampedOscillation) {
+  const Curve curve = sampled(6.0, 6000, [](double t) {
+    return 0.1 + 0.01 * std::exp(-0.5 * t) * std::cos(2.0 * std::numbers::pi * t / 0.3);
+  });
+  EXPECT_NEAR(*envelope_decay_rate(curve, {0.0, 6.0}), 0.5, 0.01);
+  EXPECT_FALSE(envelope_decay_rate(constant(0.1), {0.0, 6.0}));
+}
+
+}  // namespace
+}  // namespace granvof::compare

@@ -1,0 +1,141 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "compare/checks/evaluate.hpp"
+#include "compare/checks/table.hpp"
+
+namespace granvof::compare {
+namespace {
+
+const std::string runs = R"toml([[run]]
+id = "s1"
+set = ["grid.dx=0.0025"]
+
+[[run]]
+id = "s2"
+)toml";
+
+const std::string good = runs + R"toml(
+[[check]]
+run = ["s1", "s2"]
+metric = "run_out"
+at = 2
+reference = { kind = "published", value = 0.3, source = "somewhere", band = 0.05 }
+tolerance = { relative = 0.1 }
+frequency = "nightly"
+expected_failure = { reason = "why", distance = 0.2 }
+
+[[check]]
+run = "s1"
+metric = "solid_volume_error"
+reference = { kind = "theory", value = 0, source = "eq (1)" }
+tolerance = { absolute = 1e-12, unit = "-" }
+frequency = "verify"
+)toml";
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_table(text, "checks.toml");
+  } catch (const TableError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// `good` with one line of it replaced.
+std::string replaced(const std::string& line, const std::string& by) {
+  std::string text = good;
+  const auto at = text.find(line);
+  EXPECT_NE(at, std::string::npos) << line;
+  return text.replace(at, line.size(), by);
+}
+
+TEST(Table, ReadsRowsAndExpandsRuns) {
+  const Table table = parse_table(good, "checks.toml");
+  ASSERT_EQ(table.runs.size(), 2u);
+  EXPECT_EQ(table.runs[0].case_name, "s1");
+  EXPECT_EQ(table.runs[0].set, std::vector<std::string>{"grid.dx=0.0025"});
+  ASSERT_EQ(table.checks.size(), 3u);
+  EXPECT_EQ(table.checks[0].id, "s1.run_out@2.published");
+  EXPECT_EQ(table.checks[1].id, "s2.run_out@2.published");
+  EXPECT_DOUBLE_EQ(*table.checks[1].parameters.at, 2.0);
+  EXPECT_DOUBLE_EQ(table.checks[0].reference.band, 0.05);
+  EXPECT_TRUE(table.checks[0].tolerance.relative);
+  EXPECT_EQ(table.checks[0].expected_failure->reason, "why");
+  EXPECT_EQ(table.checks[2].tolerance.unit, "-");
+}
+
+TEST(Table, RowsAreDueAtTheirFrequencyAndAbove) {
+  const Table table = parse_table(good, "checks.toml");
+  EXPECT_EQ(due_checks(table, Frequency::verify).size(), 1u);
+  EXPECT_EQ(due_checks(table, Frequency::nightly).size(), 3u);
+  ASSERT_EQ(due_runs(table, Frequency::verify).size(), 1u);
+  EXPECT_EQ(due_runs(table, Frequency::verify)[0].id, "s1");
+  EXPECT_EQ(due_runs(table, Frequency::weekly).size(), 2u);
+}
+
+struct BadInput {
+  std::string line, by, place, what;
+};
+
+class TableBadInput : public testing::TestWithParam<BadInput> {};
+
+TEST_P(TableBadInput, IsNamedWithItsPlace) {
+  const std::string message = message_of(replaced(GetParam().line, GetParam().by));
+  EXPECT_EQ(message.rfind("checks.toml:" + GetParam().place, 0), 0u) << message;
+  EXPECT_NE(message.find(GetParam().what), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, TableBadInput,
+    testing::Values(
+        BadInput{"metric = \"run_out\"", "metric = \"runout\"", "10:", "'runout' given; allowed: run_out"},
+        BadInput{"at = 2", "at = \"2\"", "11:", "expected a finite number"},
+        BadInput{"at = 2", "at = nan", "11:", "expected a finite number"},
+        BadInput{"at = 2\n", "\n", "10:", "run_out needs the key 'at'"},
+        BadInput{"at = 2", "at = 2\nwindow = [0, 1]", "12:", "takes no such parameter"},
+        BadInput{"kind = \"published\"", "kind = \"guess\"",
+                 "12:", "allowed: theory, published, DEM, regression"},
+        BadInput{"value = 0.3, ", "", "12:", "exactly one of"},
+        BadInput{"value = 0.3", "formula = \"floating_period\"", "12:", "is in s"},
+        BadInput{"value = 0.3", "formula = \"nothing\"", "12:", "'nothing' given"},
+        BadInput{"value = 0.3", "record = \"s1\"", "12:", "only a reference of kind DEM"},
+        BadInput{", source = \"somewhere\"", "", "12:", "'source' is missing"},
+        BadInput{"{ relative = 0.1 }", "{ relative = -0.1 }", "13:", "0 or more"},
+        BadInput{"{ relative = 0.1 }", "{ relative = 0.1, absolute = 1 }", "13:", "one of"},
+        BadInput{"unit = \"-\"", "unit = \"m\"", "21:", "'m' given; solid_volume_error is in -"},
+        BadInput{"frequency = \"nightly\"", "frequency = \"often\"",
+                 "14:", "allowed: short, verify, nightly, weekly"},
+        BadInput{"frequency = \"nightly\"", "frequency = \"nightly\"\nspeed = 1",
+                 "15:", "unknown key; allowed"},
+        BadInput{"run = \"s1\"", "run = \"s3\"", "18:", "no [[run]] has the id 's3'; there are: s1, s2"},
+        BadInput{"set = [\"grid.dx=0.0025\"]", "set = [\"grid.dx\"]", "3:", "expected key=value"},
+        BadInput{"id = \"s2\"", "id = \"s1\"", "6:", "given twice"},
+        BadInput{"run = [\"s1\", \"s2\"]", "run = [\"s1\", \"s1\"]", "8:", "checked twice"},
+        BadInput{"at = 2", "at = ", "11:", ""}));
+
+TEST(Table, AWindowMustGoForward) {
+  const std::string text = runs + R"toml(
+[[check]]
+run = "s1"
+metric = "period"
+window = [6, 3]
+reference = { kind = "theory", formula = "floating_period" }
+tolerance = { relative = 0.1 }
+frequency = "verify"
+)toml";
+  EXPECT_NE(message_of(text).find("begin must come before end"), std::string::npos);
+}
+
+TEST(Table, AMissingFileIsNamed) {
+  try {
+    read_table("no/such/checks.toml");
+    FAIL();
+  } catch (const TableError& error) {
+    EXPECT_NE(std::string(error.what()).find("no/such/checks.toml"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace granvof::compare
