@@ -32,6 +32,11 @@ Value value_of(const toml::node& node) {
   return std::monostate{};
 }
 
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 // The value for a message: numbers as short as they read back, anything unusual as the library prints it.
 std::string shown(const toml::node& node, const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return toml_text(*number);
@@ -39,9 +44,7 @@ std::string shown(const toml::node& node, const Value& value) {
   if (const auto* list = std::get_if<std::vector<double>>(&value)) return toml_text(*list);
   std::ostringstream out;
   node.visit([&](const auto& element) { out << element; });
-  std::string text = out.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  return one_line(out.str());
 }
 
 // Merges one layer of text over what is there.
@@ -171,17 +174,18 @@ toml::table parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
   if (equals == std::string::npos || !is_path(path)) {
-    throw CaseError(fmt::format("--set: got {}, allowed: table.key=value, such as grid.dx=0.005", text));
+    throw CaseError(
+        fmt::format("--set: got {}, allowed: table.key=value, such as grid.dx=0.005", one_line(text)));
   }
   const std::string value = text.substr(equals + 1);
-  const bool one_line = value.find('\n') == std::string::npos;
-  auto table = one_line ? try_parse(path + " = " + value) : std::nullopt;
+  const bool single = value.find('\n') == std::string::npos;
+  auto table = single ? try_parse(path + " = " + value) : std::nullopt;
   if (!table && is_bare_word(value)) table = try_parse(path + " = \"" + value + "\"");
   if (!table) {
     throw CaseError(
         fmt::format("--set: {}: got {}, allowed: a TOML value, such as 0.4, true, [1, 2], \"text\" or a "
                     "bare word",
-                    path, value.empty() ? "nothing" : value));
+                    path, value.empty() ? "nothing" : one_line(value)));
   }
   return std::move(*table);
 }

@@ -193,8 +193,8 @@ class Completion {
       box.upper[axis] = d_.box_origin[axis] + d_.box_size[axis];
       if (outside(box.lower[axis], box.upper[axis], axis)) {
         refuse("liquid.box.size",
-               fmt::format("a box inside the tank: in {} it ends at {} m, the tank at {} m", axis_names[axis],
-                           box.upper[axis], s_.tank[axis]));
+               fmt::format("a box inside the tank: in {} it ends at {:.9g} m, the tank at {:.9g} m",
+                           axis_names[axis], box.upper[axis], s_.tank[axis]));
       }
     }
     s_.liquid_boxes.push_back(box);
@@ -221,7 +221,7 @@ class Completion {
     for (int axis = 0; axis < 3; ++axis) {
       if (outside(box.lower[axis], box.upper[axis], axis) || box.upper[axis] <= box.lower[axis]) {
         refuse(extents[axis],
-               fmt::format("a bed inside the tank: it begins at {} = {} m, the tank ends at {} m",
+               fmt::format("a bed inside the tank: it begins at {} = {:.9g} m, the tank ends at {:.9g} m",
                            axis_names[axis], box.lower[axis], s_.tank[axis]));
       }
     }
@@ -249,7 +249,8 @@ class Completion {
     if (ratio >= 1.0) refuse("bed.y", "\"floating\" only where solid.density is below liquid.density");
     const double y = *d_.level - ratio * d_.bed.height;
     if (y < 0.0)
-      refuse("bed.y", fmt::format("liquid.level at least {} m for this bed to float", ratio * d_.bed.height));
+      refuse("bed.y",
+             fmt::format("liquid.level at least {:.9g} m for this bed to float", ratio * d_.bed.height));
     return y;
   }
 
@@ -274,7 +275,7 @@ class Completion {
     }
     t.series_interval = t.series_interval.value_or(t.end / 200.0);
     if (*t.series_interval > t.end || t.end / *t.series_interval > most_rows) {
-      refuse("output.series_interval", fmt::format("a number in [{}, {}], time.end / {} to time.end",
+      refuse("output.series_interval", fmt::format("a number in [{:.9g}, {:.9g}], time.end / {} to time.end",
                                                    t.end / most_rows, t.end, most_rows));
     }
     s_.times.end = t.end * s_.times.unit;
@@ -296,7 +297,7 @@ class Completion {
       refuse("output.field_interval", "either field_times or field_interval");
     if (spaced > listed) {
       if (*t.field_interval > t.end || t.end / *t.field_interval > most_field_times) {
-        refuse("output.field_interval", fmt::format("a number in [{}, {}], time.end / {} to time.end",
+        refuse("output.field_interval", fmt::format("a number in [{:.9g}, {:.9g}], time.end / {} to time.end",
                                                     t.end / most_field_times, t.end, most_field_times));
       }
       t.field_times.clear();

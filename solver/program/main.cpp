@@ -1,0 +1,117 @@
+// The program granvof: run, check and keys. Exit codes: 0 done, 1 the run failed, 2 bad input.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "solver/output/build_info.hpp"
+#include "solver/output/output_error.hpp"
+#include "solver/run/run_case.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace {
+
+constexpr int bad_input = 2;
+constexpr int most_threads = 256;
+
+struct Arguments {
+  std::string case_file;
+  std::vector<std::string> overrides;
+  granvof::RunOptions run;
+};
+
+void add_case(CLI::App& command, Arguments& arguments) {
+  command.add_option("case", arguments.case_file, "Case file (TOML)")->required()->type_name("CASE");
+  command.add_option("--set", arguments.overrides, "Replace a key of the case; may be given again")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+std::string version_text() {
+  const granvof::BuildInfo& info = granvof::build_info();
+  return fmt::format("granvof {}{}", info.version,
+                     info.git_commit.empty() ? "" : fmt::format(" ({})", info.git_commit));
+}
+
+std::string command_line(int argc, char** argv) {
+  return fmt::format("{}", fmt::join(std::vector<std::string>(argv, argv + argc), " "));
+}
+
+int run(Arguments& arguments) {
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  granvof::RunOptions& options = arguments.run;
+  if (options.out.empty()) options.out = std::filesystem::path("out") / "runs" / scene.name;
+  options.progress = isatty(STDERR_FILENO) != 0;
+  return granvof::run_case(scene, options);
+}
+
+int check(const Arguments& arguments) {
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  fmt::print("# {}: {} cells, {:.6g} s; physics {}\n\n{}", scene.name, fmt::join(scene.grid.cells, " x "),
+             scene.times.end, scene.hash, scene.resolved);
+  return 0;
+}
+
+int keys() {
+  fmt::print("{}", granvof::keys_reference());
+  return 0;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"A continuum solver for gas-liquid-solid flow."};
+  app.name("granvof");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("granvof: {} (granvof --help says what is allowed)\n", error.what());
+  });
+
+  Arguments arguments;
+  arguments.run.command = command_line(argc, argv);
+  CLI::App& run_command = *app.add_subcommand("run", "Run a case and write its results");
+  add_case(run_command, arguments);
+  std::string out;
+  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")->type_name("DIR");
+  run_command.add_option("--threads", arguments.run.threads, "Threads")
+      ->capture_default_str()
+      ->check(CLI::Range(1, most_threads))
+      ->type_name("N");
+  run_command.add_flag("--resume", arguments.run.resume, "Go on from the run directory's checkpoint");
+  CLI::App& check_command =
+      *app.add_subcommand("check", "Check a case and print it in full, defaults filled in");
+  add_case(check_command, arguments);
+  CLI::App& keys_command =
+      *app.add_subcommand("keys", "Print the reference table of a case's keys (Markdown)");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_input;
+  }
+  arguments.run.out = out;
+  if (keys_command.parsed()) return keys();
+  if (check_command.parsed()) return check(arguments);
+  return run(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const granvof::CaseError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  } catch (const granvof::OutputError& error) {
+    fmt::print(stderr, "granvof: {}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "granvof: {}\n", error.what());
+    return 1;
+  }
+}

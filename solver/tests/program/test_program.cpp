@@ -1,0 +1,106 @@
+// The program from outside: exit codes, what goes to which stream, and that bad input writes nothing.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+// A fresh working directory for each test.
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "granvof-program-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    directory_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  Outcome granvof(const std::string& arguments) const {
+    const std::string command = "cd '" + directory_.string() + "' && '" GRANVOF_PROGRAM "' " + arguments +
+                                " >stdout.txt 2>stderr.txt </dev/null";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout.txt"), text("stderr.txt")};
+    std::filesystem::remove(directory_ / "stdout.txt");
+    std::filesystem::remove(directory_ / "stderr.txt");
+    return outcome;
+  }
+
+  void expect_refused(const std::string& arguments, const std::string& part) const {
+    const Outcome outcome = granvof(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(std::filesystem::is_empty(directory_)) << arguments;
+  }
+
+  static std::string shipped(const std::string& name) { return "'" GRANVOF_CASES_DIR "/" + name + ".toml'"; }
+
+ private:
+  std::string text(const std::string& name) const {
+    std::ifstream in(directory_ / name);
+    std::ostringstream content;
+    content << in.rdbuf();
+    return content.str();
+  }
+
+  std::filesystem::path directory_;
+};
+
+TEST_F(Program, PrintsVersionAndHelp) {
+  const Outcome version = granvof("--version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out.rfind("granvof ", 0), 0U) << version.out;
+  const Outcome help = granvof("--help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* word : {"run", "check", "keys"}) EXPECT_NE(help.out.find(word), std::string::npos) << word;
+}
+
+TEST_F(Program, ChecksACase) {
+  const Outcome outcome = granvof("check " + shipped("s1") + " --set grid.dx=0.005 --set time.end=2");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out.rfind("# s1: 80 x 24 x 1 cells", 0), 0U) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nend = 2\n"), std::string::npos);
+}
+
+TEST_F(Program, TakesListsAndInlineTablesAsOverrides) {
+  const Outcome outcome =
+      granvof("check --set 'tank.size=[0.3, 0.12]' --set 'walls.left={ fluid = \"slip\" }' " + shipped("s1"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("size = [0.3, 0.12]"), std::string::npos);
+  EXPECT_NE(outcome.out.find("left.fluid = \"slip\""), std::string::npos);
+}
+
+TEST_F(Program, PrintsTheKeys) {
+  const Outcome outcome = granvof("keys");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("| friction | a number >= 0 | required |"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Program, RefusesBadCommands) {
+  expect_refused("", "subcommand");
+  expect_refused("fly", "fly");
+  expect_refused("run", "case is required");
+  expect_refused("run " + shipped("s1") + " --threads 0", "--threads");
+  expect_refused("run " + shipped("s1") + " --thread 2", "--thread");
+}
+
+TEST_F(Program, RefusesBadCasesAndWritesNothing) {
+  expect_refused("run " + shipped("s1") + " --set solid.friction=-0.4",
+                 "--set: solid.friction: got -0.4, allowed: a number >= 0");
+  expect_refused("check no-such-case.toml", "no-such-case.toml");
+}
+
+}  // namespace

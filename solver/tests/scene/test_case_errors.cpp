@@ -1,0 +1,197 @@
+// Every class of bad input: one line that names place, key, what was given and what is allowed.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "solver/tests/scene/case_fixture.hpp"
+
+namespace granvof::test {
+namespace {
+
+struct Refused {
+  std::string what;                    // of the test
+  std::vector<std::string> overrides;  // of the small case
+  std::vector<std::string> parts;      // of the message
+};
+
+void PrintTo(const Refused& refused, std::ostream* out) {
+  *out << refused.what;
+}
+
+class Overrides : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(Overrides, AreRefusedInOneLine) {
+  const std::string message = refusal_of(small_case, GetParam().overrides);
+  ASSERT_NE(message, "") << "was accepted";
+  for (const std::string& part : GetParam().parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << "no \"" << part << "\" in: " << message;
+  }
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+const std::vector<Refused> values{
+    {"negative", {"solid.friction=-0.4"}, {"--set: solid.friction: got -0.4, allowed: a number >= 0"}},
+    {"zero_size", {"solid.diameter=0"}, {"solid.diameter: got 0, allowed: a number > 0 [m]"}},
+    {"negative_tank", {"tank.size=[0.4, -0.12]"}, {"tank.size: got [0.4, -0.12]", "each > 0 [m]"}},
+    {"not_a_number", {"solid.density=nan"}, {"solid.density: got nan", "a number > 0"}},
+    {"infinite", {"gas.viscosity=inf"}, {"gas.viscosity: got inf"}},
+    {"text_for_number", {"solid.density=heavy"}, {"solid.density: got \"heavy\""}},
+    {"number_for_text", {"scene.title=3"}, {"scene.title: got 3", "text in quotes"}},
+    {"number_for_switch", {"model.drag=1"}, {"model.drag: got 1, allowed: true or false"}},
+    {"fraction_for_integer",
+     {"numerics.newton_max=2.5"},
+     {"numerics.newton_max: got 2.5", "an integer in [1, 1000]"}},
+    {"unknown_word", {"numerics.solid_flux=upwnd"}, {"got \"upwnd\", allowed: \"upwind\" | \"limited\""}},
+    {"cfl_zero", {"numerics.cfl=0"}, {"numerics.cfl: got 0, allowed: a number in (0, 0.9]"}},
+    {"cfl_large", {"numerics.cfl=0.91"}, {"numerics.cfl: got 0.91, allowed: a number in (0, 0.9]"}},
+    {"dt_order",
+     {"numerics.dt_min=0.01"},
+     {"numerics.dt_min: got 0.01", "at most numerics.dt_max = 0.005 s"}},
+    {"mixed_list", {"tank.size=[0.4, \"high\"]"}, {"tank.size: got ", "list of numbers"}},
+    {"date", {"time.end=2020-01-01"}, {"time.end: got 2020-01-01"}},
+    {"seed_fraction", {"reference.seeds=[1.5]"}, {"reference.seeds: got [1.5]", "list of integers"}},
+    {"no_seed", {"reference.seeds=[]"}, {"reference.seeds: got []", "at least one seed"}},
+    {"poisson", {"reference.poisson=0.5"}, {"reference.poisson: got 0.5", "(-1, 0.5)"}},
+    {"reference_dt",
+     {"reference.dt=1e-3"},
+     {"reference.dt: got 0.001", "at most reference.fluid_dt = 0.0001 s"}},
+};
+const std::vector<Refused> keys{
+    {"misspelt",
+     {"solid.fricton=0.4"},
+     {"--set: solid.fricton: unknown key", "did you mean solid.friction?"}},
+    {"misspelt_table", {"sold.friction=0.4"}, {"sold.friction: unknown key", "did you mean solid.friction?"}},
+    {"far_key", {"solid.colour_of_the_beads=1"}, {"unknown key", "allowed in [solid]: density, diameter"}},
+    {"far_table", {"weather.temperature_outside=3"}, {"unknown key", "allowed tables: scene, tank"}},
+    {"value_for_table", {"solid=3"}, {"solid: got 3, allowed: a table [solid]"}},
+    {"required_table_dropped", {"gas=false"}, {"gas.density: got nothing", "the key is required"}},
+    {"not_an_override", {"dx"}, {"--set: got dx, allowed: table.key=value"}},
+    {"empty_override", {"grid.dx="}, {"--set: grid.dx: got nothing"}},
+    {"bad_override_value", {"grid.dx=0.0.1"}, {"--set: grid.dx: got 0.0.1", "a TOML value"}},
+    {"two_in_one", {"grid.dx=0.01\nsolid.friction=1"}, {"--set: grid.dx: got 0.01"}},
+};
+const std::vector<Refused> geometry{
+    {"cells",
+     {"grid.dx=0.03"},
+     {"grid.dx: got 0.03", "x = 0.4 m", "0.0285714286 (14 cells)", "0.0307692308 (13 cells)"}},
+    {"cells_y", {"grid.dy=0.05"}, {"grid.dy: got 0.05", "y = 0.12 m", "0.04 (3 cells)", "0.06 (2 cells)"}},
+    {"larger_than_tank", {"grid.dx=0.5"}, {"grid.dx: got 0.5", "0.4 (1 cells)"}},
+    {"too_many_cells", {"grid.dx=1e-7"}, {"grid.dx: got 1e-07", "at most 1000000000 cells"}},
+    {"dz_in_2d", {"grid.dz=0.01"}, {"grid.dz: got 0.01", "no such key in 2D"}},
+    {"components", {"tank.size=[0.4, 0.12, 0.1]"}, {"tank.size: got [0.4, 0.12, 0.1]", "2 numbers"}},
+    {"dimensions", {"scene.dimensions=4"}, {"scene.dimensions: got 4", "in [2, 3]"}},
+    {"bed_too_long", {"bed.x=0.35"}, {"bed.length: got 0.1", "the tank ends at 0.4 m"}},
+    {"bed_too_high", {"bed.y=0.08"}, {"bed.height: got 0.05", "the tank ends at 0.12 m"}},
+    {"bed_width_in_2d", {"bed.width=0.1"}, {"bed.width: got 0.1", "no such key in 2D"}},
+    {"packing_zero", {"bed.solid_fraction=0"}, {"bed.solid_fraction: got 0, allowed: a number in (0, 1)"}},
+    {"packing_high",
+     {"bed.solid_fraction=0.64"},
+     {"bed.solid_fraction: got 0.64, allowed: a number in (0, 0.63]"}},
+    {"slope_too_flat", {"bed.slope=20"}, {"bed.slope: got 20", "at least 26.57 degrees"}},
+    {"contact_order", {"contact.solid_fraction_min=0.63"}, {"below contact.solid_fraction_max = 0.63"}},
+    {"contact_dense", {"contact.dense_solid_fraction=0.65"}, {"at most contact.solid_fraction_max = 0.63"}},
+    {"level_above_tank",
+     {"liquid.level=0.13"},
+     {"liquid.level: got 0.13", "at most the tank's height 0.12 m"}},
+    {"half_a_box", {"liquid.box.size=[0.1, 0.1]"}, {"liquid.box.origin: got nothing"}},
+    {"box_outside",
+     {"liquid.box={origin=[0.35, 0], size=[0.1, 0.1]}"},
+     {"liquid.box.size", "in x it ends at 0.45"}},
+    {"heavy_floats", {"bed.y=floating"}, {"bed.y: got \"floating\"", "below liquid.density"}},
+    {"no_water_to_lie_on",
+     {"liquid=false", "bed.y=on-water"},
+     {"bed.y: got \"on-water\"", "no liquid.level"}},
+    {"gate_outside", {"gate.position=0.4"}, {"gate.position: got 0.4", "inside the tank"}},
+    {"bed_without_solid", {"solid=false"}, {"bed: got [bed] without [solid]"}},
+    {"gate_without_bed", {"bed=false", "reference=false", "time.unit=s"}, {"gate: got [gate] without [bed]"}},
+    {"reference_without_bed",
+     {"bed=false", "gate=false", "time.unit=s"},
+     {"reference: got [reference] without [bed]"}},
+};
+const std::vector<Refused> walls{
+    {"lonely_period",
+     {"walls.left=periodic"},
+     {"walls.left: got \"periodic\"", "walls.right = \"periodic\""}},
+    {"open_side", {"walls.left=open"}, {"walls.left: got \"open\"", "only walls.top may be open"}},
+    {"all_open", {"walls.all=open"}, {"walls.all: got \"open\"", "only walls.top may be open"}},
+    {"no_friction", {"walls.bottom.solid=coulomb"}, {"walls.bottom.solid_friction: got nothing", "required"}},
+    {"idle_friction",
+     {"walls.bottom.solid_friction=0.2"},
+     {"walls.bottom.solid_friction: got 0.2", "only with"}},
+    {"fluid_coulomb", {"walls.bottom.fluid=coulomb"}, {"walls.bottom.fluid: got \"coulomb\""}},
+    {"front_in_2d", {"walls.front=slip"}, {"walls.front: got \"slip\"", "no such key in 2D"}},
+    {"normal_velocity", {"walls.bottom.velocity=[0, 1]"}, {"walls.bottom.velocity", "normal component 0"}},
+    {"velocity_of_all", {"walls.all.velocity=[0, 0]"}, {"walls.all.velocity", "of one side"}},
+};
+const std::vector<Refused> times{
+    {"no_end", {"time.end=0"}, {"time.end: got 0, allowed: a number > 0"}},
+    {"late_field", {"output.field_times=[0, 11]"}, {"output.field_times: got [0, 11]", "times in [0, 10]"}},
+    {"early_field", {"output.field_times=[-1, 2]"}, {"output.field_times: got [-1, 2]", "each >= 0"}},
+    {"field_order", {"output.field_times=[2, 1]"}, {"output.field_times", "ascending"}},
+    {"field_twice", {"output.field_times=[1, 1]"}, {"output.field_times", "each once"}},
+    {"both_kinds",
+     {"output.field_times=[1]", "output.field_interval=1"},
+     {"either field_times or field_interval"}},
+    {"field_interval", {"output.field_interval=11"}, {"output.field_interval: got 11", "time.end"}},
+    {"series_too_long", {"output.series_interval=11"}, {"output.series_interval: got 11", "to time.end"}},
+    {"series_too_fine", {"output.series_interval=1e-6"}, {"output.series_interval: got 1e-06"}},
+    {"unit_without_bed",
+     {"bed=false", "gate=false", "reference=false"},
+     {"time.unit: got \"column\"", "needs a [bed]"}},
+    {"hold_without_gate", {"gate=false", "time.hold=0.1"}, {"time.hold: got 0.1", "no [gate]"}},
+    {"gate_release_without_gate",
+     {"gate=false", "reference.release=gate"},
+     {"reference.release: got \"gate\""}},
+};
+
+const auto name_of = [](const auto& info) { return info.param.what; };
+INSTANTIATE_TEST_SUITE_P(Values, Overrides, ::testing::ValuesIn(values), name_of);
+INSTANTIATE_TEST_SUITE_P(Keys, Overrides, ::testing::ValuesIn(keys), name_of);
+INSTANTIATE_TEST_SUITE_P(Geometry, Overrides, ::testing::ValuesIn(geometry), name_of);
+INSTANTIATE_TEST_SUITE_P(Walls, Overrides, ::testing::ValuesIn(walls), name_of);
+INSTANTIATE_TEST_SUITE_P(Times, Overrides, ::testing::ValuesIn(times), name_of);
+
+// Replaces the first `from` of the small case.
+std::string edited(const std::string& from, const std::string& to) {
+  std::string text(small_case);
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(CaseErrors, NameTheLineOfAValue) {
+  EXPECT_EQ(refusal_of(edited("friction = 0.4", "friction = -0.4")),
+            "small.toml:20: solid.friction: got -0.4, allowed: a number >= 0");
+}
+
+TEST(CaseErrors, NameTheLineOfAnUnknownKeyAndTable) {
+  EXPECT_EQ(refusal_of(edited("friction = 0.4", "frction = 0.4")),
+            "small.toml:20: solid.frction: unknown key (got 0.4), did you mean solid.friction?");
+  EXPECT_EQ(refusal_of(edited("[gate]\nspeed = 1.0", "[gait]")).substr(0, 33),
+            "small.toml:25: gait: unknown key ");
+}
+
+TEST(CaseErrors, NameTheTableThatLacksAKey) {
+  const std::string message = refusal_of(edited("friction = 0.4\n", ""));
+  EXPECT_EQ(message.substr(0, 43), "small.toml:17: solid.friction: got nothing,") << message;
+}
+
+TEST(CaseErrors, NameTheFileThatLacksATable) {
+  const std::string message = refusal_of(edited("[grid]\ndx = 0.01\n", ""));
+  EXPECT_EQ(message.substr(0, 32), "small.toml: grid.dx: got nothing") << message;
+}
+
+TEST(CaseErrors, NameTheLineOfASyntaxError) {
+  EXPECT_EQ(refusal_of(edited("level = 0.07", "level = = 0.07")).substr(0, 24), "small.toml:16: not TOML:");
+  EXPECT_EQ(refusal_of(edited("level = 0.07", "level = 0.07\nlevel = 0.08")).substr(0, 24),
+            "small.toml:17: not TOML:");
+}
+
+TEST(CaseErrors, RefuseAnEmptyFile) {
+  EXPECT_NE(refusal_of("").find("scene.name: got nothing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace granvof::test

@@ -1,0 +1,160 @@
+// Files: inheritance, names, and every case that is shipped.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "solver/tests/scene/case_fixture.hpp"
+
+namespace granvof::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CaseFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "granvof-scene-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    directory_ = pattern;
+    write("small.toml", small_case);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  fs::path write(const std::string& name, std::string_view text) const {
+    std::ofstream(directory_ / name) << text;
+    return directory_ / name;
+  }
+  std::string refused(const fs::path& file, const std::vector<std::string>& overrides = {}) const {
+    return refusal([&] { load_scene(file, overrides); });
+  }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
+ private:
+  fs::path directory_;
+};
+
+TEST_F(CaseFiles, DeriveFromABase) {
+  write(
+      "middle.toml",
+      "base = \"small.toml\"\n[scene]\nname = \"middle\"\n[solid]\ndensity = 600\n[bed]\ny = \"floating\"\n");
+  const auto file =
+      write("last.toml",
+            "base = \"middle.toml\"\ngate = false\n[scene]\nname = \"last\"\n[solid]\nfriction = 0.3\n");
+  const Scene scene = load_scene(file);
+  EXPECT_EQ(scene.name, "last");
+  EXPECT_EQ(scene.solid.density, 600.0);
+  EXPECT_EQ(scene.solid.friction, 0.3);
+  EXPECT_EQ(scene.solid.diameter, 0.8e-3);
+  EXPECT_DOUBLE_EQ(scene.bed->box.lower[1], 0.04);
+  EXPECT_FALSE(scene.gate);
+  EXPECT_EQ(scene.resolved.find("base"), std::string::npos);
+}
+
+TEST_F(CaseFiles, OverridesComeAfterTheLastFile) {
+  const auto file =
+      write("last.toml", "base = \"small.toml\"\n[scene]\nname = \"last\"\n[solid]\nfriction = 0.3\n");
+  EXPECT_EQ(load_scene(file, std::vector<std::string>{"solid.friction=0.2"}).solid.friction, 0.2);
+}
+
+TEST_F(CaseFiles, AnErrorNamesTheFileWhereTheValueStands) {
+  write("bad.toml", "base = \"small.toml\"\n[scene]\nname = \"bad\"\n\n[solid]\nfriction = -1\n");
+  const auto file = write("last.toml", "base = \"bad.toml\"\n[scene]\nname = \"last\"\n");
+  EXPECT_EQ(refused(file), path("bad.toml") + ":6: solid.friction: got -1, allowed: a number >= 0");
+}
+
+TEST_F(CaseFiles, RefuseAMissingBaseAndACircle) {
+  EXPECT_NE(
+      refused(write("lost.toml", "base = \"none.toml\"\n")).find("lost.toml:1: base: got \"none.toml\""),
+      std::string::npos);
+  EXPECT_NE(refused(write("round.toml", "base = \"round.toml\"\n")).find("without a circle"),
+            std::string::npos);
+  EXPECT_NE(refused(write("number.toml", "base = 3\n")).find("number.toml:1: base: got 3"),
+            std::string::npos);
+}
+
+TEST_F(CaseFiles, RefuseANameThatIsNotTheFiles) {
+  EXPECT_EQ(refused(write("other.toml", small_case)),
+            path("other.toml") + ":2: scene.name: got \"small\", allowed: \"other\", the file's stem");
+}
+
+TEST_F(CaseFiles, RefuseWhatCannotBeRead) {
+  EXPECT_EQ(refused(path("none.toml")), path("none.toml") + ": cannot be read, allowed: a case file (TOML)");
+  EXPECT_NE(refused(fs::temp_directory_path()).find("is a directory"), std::string::npos);
+}
+
+TEST_F(CaseFiles, TheResolvedFileLoadsToTheSameScene) {
+  const Scene scene = load_scene(path("small.toml"));
+  write("small.toml", scene.resolved);
+  EXPECT_EQ(load_scene(path("small.toml")), scene);
+}
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(GRANVOF_CASES_DIR)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class Shipped : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, LoadsAndReadsBack) {
+  const Scene scene = load_scene(fmt::format("{}/{}.toml", GRANVOF_CASES_DIR, GetParam()));
+  EXPECT_EQ(scene.name, GetParam());
+  EXPECT_NE(scene.title, scene.name) << "a shipped case has a title";
+  Scene again = parse_scene(scene.resolved, "resolved");
+  again.file = scene.file;
+  EXPECT_EQ(scene, again);
+}
+
+std::string test_name(const ::testing::TestParamInfo<std::string>& shipped_case) {
+  std::string name = shipped_case.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Shipped, ::testing::ValuesIn(shipped()), test_name);
+
+TEST(ShippedCases, AreThoseOfThePaperAndTheLadder) {
+  const auto names = shipped();
+  for (const char* name : {"s1", "s2", "s1-loose", "s1-dense", "sw", "fw", "float-full-r08-nodrag",
+                           "float-free-r02", "dam-break"}) {
+    EXPECT_TRUE(std::count(names.begin(), names.end(), name)) << name;
+  }
+}
+
+// Table 1 and 2 of the paper, written down here a second time on purpose.
+TEST(ShippedCases, KeepThePapersNumbers) {
+  const std::string cases = GRANVOF_CASES_DIR;
+  const Scene s1 = load_scene(cases + "/s1.toml");
+  EXPECT_EQ(s1.solid, (Solid{2500, 0.8e-3, 0.9, 0.40}));
+  EXPECT_EQ(s1.bed->box.upper[0], 0.0975);
+  EXPECT_EQ(s1.bed->box.upper[1], 0.049);
+  EXPECT_EQ(s1.liquid_boxes[0].upper[1], 0.07);
+  EXPECT_EQ(s1.gate->speed, 1.0);
+  EXPECT_DOUBLE_EQ(s1.times.end, 10 * std::sqrt(0.049 / 9.81));
+  const Scene s2 = load_scene(cases + "/s2.toml");
+  EXPECT_EQ(s2.bed->box.upper[0], 0.0575);
+  EXPECT_EQ(s2.bed->box.upper[1], 0.084);
+  EXPECT_EQ(s2.liquid_boxes[0].upper[1], 0.10);
+  EXPECT_DOUBLE_EQ(s2.times.end, 10 * std::sqrt(0.084 / 9.81));
+  const Scene fw = load_scene(cases + "/fw.toml");
+  EXPECT_EQ(fw.solid, (Solid{910, 3.2e-3, 0.9, 0.47}));
+  EXPECT_EQ(fw.liquid.density, 998);
+  EXPECT_EQ(fw.bed->box.upper[0], 0.109);
+  EXPECT_FALSE(fw.gate);
+  const Scene r06 = load_scene(cases + "/float-full-r06.toml");
+  EXPECT_EQ(r06.solid, (Solid{600, 2e-3, 0.9, 0.3}));
+  EXPECT_EQ(r06.bed->solid_fraction, 0.5);
+}
+
+}  // namespace
+}  // namespace granvof::test

@@ -1,0 +1,172 @@
+// What a case becomes: values, defaults, units, overrides, resolved text and hashes.
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "solver/scene/load_scene.hpp"
+#include "solver/tests/scene/case_fixture.hpp"
+
+namespace granvof::test {
+namespace {
+
+TEST(LoadScene, ReadsGeometryAndMaterials) {
+  const Scene scene = small();
+  EXPECT_EQ(scene.name, "small");
+  EXPECT_EQ(scene.title, "small");
+  EXPECT_EQ(scene.tank, (Vec3{0.4, 0.12, 1.0}));
+  EXPECT_EQ(scene.grid.cells, (std::array<int, 3>{40, 12, 1}));
+  EXPECT_DOUBLE_EQ(scene.grid.spacing[0], 0.01);
+  EXPECT_DOUBLE_EQ(scene.grid.spacing[2], 1.0);
+  EXPECT_EQ(scene.liquid_boxes, (std::vector<Box>{{{0, 0, 0}, {0.4, 0.07, 1.0}}}));
+  ASSERT_TRUE(scene.bed);
+  EXPECT_EQ(scene.bed->box, (Box{{0, 0, 0}, {0.1, 0.05, 1.0}}));
+  ASSERT_TRUE(scene.gate);
+  EXPECT_EQ(*scene.gate, (Gate{0.1, 1.0}));
+  EXPECT_EQ(scene.contact, Contact{});
+  EXPECT_EQ(scene.model, Model{});
+  EXPECT_EQ(scene.numerics, Numerics{});
+}
+
+TEST(LoadScene, CountsTimesInColumnUnits) {
+  const Scene scene = small();
+  const double unit = std::sqrt(0.05 / 9.81);
+  EXPECT_DOUBLE_EQ(scene.times.unit, unit);
+  EXPECT_DOUBLE_EQ(scene.times.end, 10 * unit);
+  EXPECT_DOUBLE_EQ(scene.times.series_interval, 0.05 * unit);
+  EXPECT_EQ(scene.times.field_times, (std::vector<double>{0.0, unit, 5 * unit, 10 * unit}));
+}
+
+TEST(LoadScene, KeepsTheHoldInSeconds) {
+  EXPECT_EQ(small({"time.hold=0.2"}).times.hold, 0.2);
+}
+
+TEST(LoadScene, SpacesFieldTimes) {
+  EXPECT_EQ(small({"time.unit=s", "output.field_interval=4"}).times.field_times,
+            (std::vector<double>{0, 4, 8, 10}));
+}
+
+TEST(LoadScene, DropsFieldTimesBeyondAnEndBroughtForward) {
+  EXPECT_EQ(small({"time.unit=s", "time.end=3"}).times.field_times, (std::vector<double>{0, 1, 3}));
+}
+
+TEST(LoadScene, PlacesTheBed) {
+  EXPECT_EQ(small({"bed.y=on-water"}).bed->box.lower[1], 0.07);
+  EXPECT_EQ(small({"bed.y=0.01"}).bed->box.lower[1], 0.01);
+  const Scene floating = small({"bed.y=floating", "solid.density=600"});
+  EXPECT_DOUBLE_EQ(floating.bed->box.lower[1], 0.07 - 0.6 * 0.05);
+}
+
+TEST(LoadScene, ReadsWalls) {
+  const Scene scene = small({"walls.all=slip", "walls.left=no-slip",
+                             "walls.bottom={solid=\"coulomb\", solid_friction=0.2, velocity=[0.1, 0]}"});
+  EXPECT_EQ(scene.sides[left].fluid.kind, WallKind::no_slip);
+  EXPECT_EQ(scene.sides[left].solid.kind, WallKind::no_slip);
+  EXPECT_EQ(scene.sides[right].fluid.kind, WallKind::slip);
+  EXPECT_EQ(scene.sides[right].solid.kind, WallKind::slip);
+  EXPECT_EQ(scene.sides[bottom].fluid.kind, WallKind::no_slip);
+  EXPECT_EQ(scene.sides[bottom].solid, (PhaseWall{WallKind::coulomb, 0.2}));
+  EXPECT_EQ(scene.sides[bottom].velocity, (Vec3{0.1, 0, 0}));
+  EXPECT_EQ(scene.sides[top].kind, SideKind::open);
+  EXPECT_EQ(scene.sides[front].fluid.kind, WallKind::slip);
+  const Scene periodic = small({"walls.left=periodic", "walls.right=periodic"});
+  EXPECT_EQ(periodic.sides[left].kind, SideKind::periodic);
+  EXPECT_EQ(periodic.sides[right].kind, SideKind::periodic);
+}
+
+TEST(LoadScene, OverridesReplaceAWordByATableAndBack) {
+  EXPECT_EQ(small({"walls.top.fluid=slip"}).sides[top].kind, SideKind::wall);
+  EXPECT_EQ(small({"walls.top.fluid=slip", "walls.top=open"}).sides[top].kind, SideKind::open);
+}
+
+TEST(LoadScene, ReadsThreeDimensions) {
+  const Scene scene = small({"scene.dimensions=3", "tank.size=[0.4, 0.12, 0.1]", "bed.z=0.02",
+                             "bed.width=0.05", "reference=false", "grid.dz=0.02"});
+  EXPECT_EQ(scene.grid.cells, (std::array<int, 3>{40, 12, 5}));
+  EXPECT_DOUBLE_EQ(scene.bed->box.lower[2], 0.02);
+  EXPECT_DOUBLE_EQ(scene.bed->box.upper[2], 0.07);
+  EXPECT_EQ(scene.sides[front].fluid.kind, WallKind::no_slip);
+}
+
+TEST(LoadScene, DoesWithoutLiquidAndWithoutGrains) {
+  const Scene dry = small({"liquid=false"});
+  EXPECT_TRUE(dry.liquid_boxes.empty());
+  EXPECT_EQ(dry.liquid, dry.gas);
+  const Scene clear = small({"solid=false", "bed=false", "gate=false", "reference=false", "time.unit=s"});
+  EXPECT_FALSE(clear.bed);
+  EXPECT_GT(clear.solid.diameter, 0.0);
+  EXPECT_EQ(clear.resolved.find("[solid]"), std::string::npos);
+}
+
+TEST(LoadScene, FillsInTheReference) {
+  const Scene scene = small();
+  ASSERT_TRUE(scene.reference);
+  EXPECT_EQ(scene.reference->bead_friction, 0.4);
+  EXPECT_EQ(scene.reference->wall_friction, 0.4);
+  EXPECT_EQ(scene.reference->bead_restitution, 0.9);
+  EXPECT_EQ(scene.reference->packing, 0.57);
+  EXPECT_EQ(scene.reference->release, ReferenceRelease::gate);
+  EXPECT_GT(scene.reference->hold, 0.0);
+  const Scene instant = small({"gate=false"});
+  EXPECT_EQ(instant.reference->release, ReferenceRelease::instant);
+  EXPECT_EQ(instant.reference->hold, 0.0);
+}
+
+const std::vector<std::vector<std::string>> variants{
+    {},
+    {"gate=false", "reference=false"},
+    {"liquid=false"},
+    {"time.unit=s", "output.field_interval=0.3", "numerics.cfl=0.1"},
+    {"walls.bottom={solid=\"coulomb\", solid_friction=0.2, velocity=[0.1, 0]}", "walls.right=slip"},
+    {"bed.y=floating", "solid.density=333", "bed.slope=45"},
+    {"scene.title=\"A \\\"title\\\" with \\\\ and \\u0007\"", "tank.depth=0.3",
+     "liquid.box={origin=[0,0], size=[0.1,0.1]}"},
+    {"scene.dimensions=3", "tank.size=[0.4, 0.12, 0.1]", "reference.slice_depth=0.1", "reference=false"},
+};
+
+TEST(Resolved, ReadsBackToTheSameScene) {
+  for (const auto& variant : variants) {
+    const Scene scene = small(variant);
+    Scene again = parse_scene(scene.resolved, "resolved");
+    again.file = scene.file;
+    EXPECT_EQ(scene, again) << scene.resolved << "\n---\n" << again.resolved;
+  }
+}
+
+TEST(Hash, IsSixteenHexDigits) {
+  const std::string hash = small().hash;
+  EXPECT_EQ(hash.size(), 16U);
+  EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
+  EXPECT_NE(hash, small().reference_hash);
+}
+
+TEST(Hash, IgnoresNumericsOutputTitlesAndNotation) {
+  for (const char* change :
+       {"numerics.cfl=0.2", "grid.dx=0.005", "grid.dy=0.02", "time.end=5", "scene.title=other",
+        "scene.name=other", "output.field_times=[1]", "output.series_interval=1", "bed.y=0.0",
+        "solid.density=2.5e3", "walls.left=no-slip"}) {
+    EXPECT_EQ(small({change}).hash, small().hash) << change;
+  }
+}
+
+TEST(Hash, ChangesWithPhysicsGeometryAndReference) {
+  for (const char* change :
+       {"solid.friction=0.41", "tank.size=[0.5, 0.12]", "tank.gravity=9.8", "walls.left=slip",
+        "gas.density=1.2", "liquid.level=0.08", "bed.solid_fraction=0.58", "gate.speed=2", "gate=false",
+        "time.hold=0.1", "reference.seeds=[3]", "reference.floor=smooth"}) {
+    EXPECT_NE(small({change}).hash, small().hash) << change;
+    EXPECT_NE(small({change}).reference_hash, small().reference_hash) << change;
+  }
+}
+
+TEST(Hash, OfTheReferenceIgnoresTheContinuumsModel) {
+  for (const char* change : {"model.drag=false", "contact.stiffness=1e7"}) {
+    EXPECT_NE(small({change}).hash, small().hash) << change;
+    EXPECT_EQ(small({change}).reference_hash, small().reference_hash) << change;
+  }
+}
+
+}  // namespace
+}  // namespace granvof::test
