@@ -1,0 +1,214 @@
+#include "reference/demvof/beads/bead_engine.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "liggghts/library.h"
+#include "liggghts/library_cfd_coupling.h"
+#include "reference/demvof/beads/input_files.hpp"
+
+namespace demvof {
+
+namespace {
+
+constexpr const char* contact = "gran model hertz tangential history";
+
+std::string three(double a, double b, double c) { return fmt::format("{} {} {}", a, b, c); }
+
+}  // namespace
+
+void FluidLoad::resize(std::size_t beads) {
+  coefficient.assign(beads, 0.0);
+  velocity.assign(3 * beads, 0.0);
+  force.assign(3 * beads, 0.0);
+}
+
+BeadEngine::BeadEngine(const BeadSettings& settings, const BeadState& mobile,
+                       const std::vector<double>& frozen_positions)
+    : settings_(settings), mobile_(mobile.count()), frozen_(frozen_positions.size() / 3), state_(mobile) {
+  std::filesystem::create_directories(settings_.scratch_folder);
+  state_.velocity.resize(3 * mobile_, 0.0);
+
+  // A screen of "none" makes LIGGGHTS crash. Where it aborts, the log's last line says why.
+  std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log",
+                                 settings_.scratch_folder + "/liggghts.log"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  lammps_open(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD, &lammps_);
+
+  command("atom_style granular");
+  command("atom_modify map array");
+  command(fmt::format("boundary f f {}", settings_.periodic_depth ? "p" : "f"));
+  command("newton off");
+  command("communicate single vel yes");
+  command("units si");
+
+  const std::string file =
+      fmt::format("{}/beads-{}-{}.data", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
+  write_beads(file, settings_, mobile, frozen_positions);
+  command("read_data " + file);
+  std::filesystem::remove(file);
+
+  command(fmt::format("neighbor {} bin", 0.3 * settings_.diameter));
+  command("neigh_modify delay 0");
+  command("group mobile type 1");
+  if (frozen_ > 0) {
+    command("group frozen type 2");
+    command("neigh_modify exclude group frozen frozen");
+  }
+  declare_materials(settings_.law.bead_friction);
+  const std::string rolling = settings_.law.rolling_friction > 0.0 ? " rolling_friction epsd2" : "";
+  command(fmt::format("pair_style {}{}", contact, rolling));
+  command("pair_coeff * *");
+  declare_walls();
+  if (settings_.gate) declare_gate();
+
+  command(fmt::format("timestep {}", settings_.dt));
+  set_gravity(settings_.gravity);
+  command("fix coupling all couple/cfd couple_every 1000000 mpi");
+  command("fix fluid mobile couple/cfd/force/implicit");
+  command("fix motion mobile nve/sphere");
+  command("thermo_style custom step atoms");
+  command("thermo 1000000000");
+  command("thermo_modify lost ignore norm no");
+  command("run 0");  // registers the coupling's properties
+
+  allocate_external_double(load_scalar_, 1, static_cast<int>(mobile_ + frozen_), 0.0, lammps_);
+  allocate_external_double(load_vector_, 3, static_cast<int>(mobile_ + frozen_), 0.0, lammps_);
+  set_velocities(state_.velocity);
+  refresh_state();
+}
+
+BeadEngine::~BeadEngine() {
+  if (lammps_ != nullptr) lammps_close(lammps_);
+}
+
+void BeadEngine::command(const std::string& line) {
+  std::string text = line;
+  lammps_command(lammps_, text.data());
+}
+
+void BeadEngine::declare_materials(double bead_friction) {
+  const ContactLaw& law = settings_.law;
+  const double bead = bead_friction, wall = law.wall_friction, e = law.restitution;
+  command("fix young all property/global youngsModulus peratomtype " + three(law.young, law.young, law.young));
+  command("fix poisson all property/global poissonsRatio peratomtype " +
+          three(law.poisson, law.poisson, law.poisson));
+  const std::string row = three(e, e, e);
+  command(fmt::format("fix restitution all property/global coefficientRestitution peratomtypepair 3 {} {} {}", row,
+                      row, row));
+  command(fmt::format("fix friction all property/global coefficientFriction peratomtypepair 3 {} {} {}",
+                      three(bead, bead, wall), three(bead, bead, wall), three(wall, wall, wall)));
+  if (law.rolling_friction > 0.0) {
+    const std::string rolling = three(law.rolling_friction, law.rolling_friction, law.rolling_friction);
+    command(fmt::format("fix rolling all property/global coefficientRollingFriction peratomtypepair 3 {} {} {}",
+                        rolling, rolling, rolling));
+  }
+}
+
+void BeadEngine::declare_walls() {
+  const auto plane = [&](const char* name, const char* kind, double position) {
+    command(fmt::format("fix {} mobile wall/{} primitive type 3 {} {}", name, contact, kind, position));
+  };
+  plane("left", "xplane", 0.0);
+  plane("right", "xplane", settings_.tank[0]);
+  plane("bottom", "yplane", 0.0);
+  plane("top", "yplane", settings_.tank[1]);
+  if (!settings_.periodic_depth) {
+    plane("front", "zplane", 0.0);
+    plane("back", "zplane", settings_.tank[2]);
+  }
+}
+
+void BeadEngine::declare_gate() {
+  const std::string file =
+      fmt::format("{}/gate-{}-{}.stl", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
+  write_gate(file, settings_);
+  command(fmt::format("fix gate all mesh/surface file {} type 3", file));
+  std::filesystem::remove(file);
+  command(fmt::format("fix gatewall mobile wall/{} mesh n_meshes 1 meshes gate", contact));
+  gate_present_ = true;
+}
+
+void BeadEngine::set_gravity(double gravity) {
+  settings_.gravity = gravity;
+  command(fmt::format("fix gravity mobile gravity {} vector 0 {} 0", std::abs(gravity), gravity < 0.0 ? 1 : -1));
+  set_up_ = false;
+}
+
+void BeadEngine::set_friction(double bead_friction) {
+  settings_.law.bead_friction = bead_friction;
+  declare_materials(bead_friction);
+  set_up_ = false;
+}
+
+void BeadEngine::set_velocities(const std::vector<double>& velocity) {
+  gathered_.assign(3 * (mobile_ + frozen_), 0.0);
+  std::copy(velocity.begin(), velocity.end(), gathered_.begin());
+  std::string name = "v";
+  lammps_scatter_atoms(lammps_, name.data(), 1, 3, gathered_.data());
+}
+
+void BeadEngine::raise_gate(double speed) {
+  if (!gate_present_) return;
+  command(fmt::format("fix gatemotion all move/mesh mesh gate linear 0. {} 0.", speed));
+  gate_moving_ = true;
+  set_up_ = false;
+}
+
+void BeadEngine::remove_gate() {
+  if (!gate_present_) return;
+  command("unfix gatewall");
+  if (gate_moving_) command("unfix gatemotion");
+  command("unfix gate");
+  gate_present_ = false;
+  set_up_ = false;
+}
+
+void BeadEngine::set_load(const FluidLoad& load) {
+  const std::size_t n = mobile_;
+  const auto send = [&](const char* name, const char* type, double** data) {
+    void* address = data;
+    data_of_to_liggghts(name, type, lammps_, address, "double");
+  };
+  for (std::size_t i = 0; i < n; ++i) load_scalar_[i][0] = load.coefficient[i];
+  send("Ksl", "scalar-atom", load_scalar_);
+  std::copy(load.velocity.begin(), load.velocity.begin() + 3 * n, &load_vector_[0][0]);
+  send("uf", "vector-atom", load_vector_);
+  std::copy(load.force.begin(), load.force.begin() + 3 * n, &load_vector_[0][0]);
+  send("dragforce", "vector-atom", load_vector_);
+}
+
+void BeadEngine::run(int steps) {
+  command(fmt::format("run {} {} post no", steps, set_up_ ? "pre no" : "pre yes"));
+  set_up_ = true;
+  steps_done_ += steps;
+  refresh_state();
+}
+
+void BeadEngine::refresh_state() {
+  if (static_cast<std::size_t>(lammps_get_natoms(lammps_)) != mobile_ + frozen_) {
+    throw std::runtime_error(fmt::format("{} beads have left the tank",
+                                         mobile_ + frozen_ - static_cast<std::size_t>(lammps_get_natoms(lammps_))));
+  }
+  gathered_.resize(3 * (mobile_ + frozen_));
+  std::string x = "x", v = "v";
+  lammps_gather_atoms(lammps_, x.data(), 1, 3, gathered_.data());
+  std::copy(gathered_.begin(), gathered_.begin() + 3 * mobile_, state_.position.begin());
+  lammps_gather_atoms(lammps_, v.data(), 1, 3, gathered_.data());
+  std::copy(gathered_.begin(), gathered_.begin() + 3 * mobile_, state_.velocity.begin());
+}
+
+double BeadEngine::bead_volume() const {
+  const double d = settings_.diameter;
+  return std::numbers::pi / 6.0 * d * d * d;
+}
+
+double BeadEngine::bead_mass() const { return settings_.density * bead_volume(); }
+
+}  // namespace demvof

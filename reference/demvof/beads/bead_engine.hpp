@@ -1,0 +1,69 @@
+// The bead side of demvof: LIGGGHTS as a library.
+//
+// Mobile beads move, are pulled by gravity and carry the load of the fluid. Frozen beads only stand in the way:
+// they make a floor rough. The engine's z is periodic or walled; x and y are walled.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reference/demvof/beads/bead_settings.hpp"
+
+namespace demvof {
+
+// Force of the fluid on a mobile bead during the next run(): force + coefficient (velocity - u_bead), the drag
+// part evaluated anew every DEM step.
+struct FluidLoad {
+  std::vector<double> coefficient;  // one a bead [kg/s]
+  std::vector<double> velocity;     // three a bead: fluid at the bead [m/s]
+  std::vector<double> force;        // three a bead [N]
+  void resize(std::size_t beads);
+};
+
+class BeadEngine {
+ public:
+  // Throws std::runtime_error when the scratch folder cannot be written. MPI must be initialised.
+  BeadEngine(const BeadSettings& settings, const BeadState& mobile, const std::vector<double>& frozen_positions);
+  ~BeadEngine();
+  BeadEngine(const BeadEngine&) = delete;
+  BeadEngine& operator=(const BeadEngine&) = delete;
+
+  void set_load(const FluidLoad& load);
+  // Advance by `steps` DEM steps. Throws std::runtime_error when a bead has left the tank.
+  void run(int steps);
+  // State of the mobile beads, in the order in which they were given.
+  const BeadState& state() const { return state_; }
+
+  void set_friction(double bead_friction);  // bead on bead, from now on
+  void set_velocities(const std::vector<double>& velocity);
+  void set_gravity(double gravity);
+  void raise_gate(double speed);  // [m/s]
+  void remove_gate();
+
+  double time() const { return static_cast<double>(steps_done_) * settings_.dt; }
+  const BeadSettings& settings() const { return settings_; }
+  double bead_mass() const;
+  double bead_volume() const;
+
+ private:
+  BeadSettings settings_;
+  void* lammps_ = nullptr;
+  std::size_t mobile_ = 0, frozen_ = 0;
+  BeadState state_;
+  long steps_done_ = 0;
+  bool gate_present_ = false;
+  bool gate_moving_ = false;
+  bool set_up_ = false;  // whether the next run may skip LIGGGHTS' set-up
+  double** load_scalar_ = nullptr;
+  double** load_vector_ = nullptr;
+  std::vector<double> gathered_;
+
+  void command(const std::string& line);
+  void declare_materials(double bead_friction);
+  void declare_walls();
+  void declare_gate();
+  void refresh_state();
+};
+
+}  // namespace demvof

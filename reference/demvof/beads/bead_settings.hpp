@@ -1,0 +1,43 @@
+// What the bead side needs to know: the tank, the beads and their contacts, in SI units.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace demvof {
+
+using Vector = std::array<double, 3>;
+
+// Hertz contact with tangential history (Coulomb-limited), as LIGGGHTS has it.
+struct ContactLaw {
+  double young = 5e6;             // [Pa], >= 5e6 (LIGGGHTS refuses less in SI units)
+  double poisson = 0.3;           // [-]
+  double restitution = 0.9;       // [-], in (0, 1]
+  double bead_friction = 0.4;     // bead on bead [-]
+  double rolling_friction = 0.0;  // bead on bead, epsd2 model [-]; 0 leaves the model out
+  double wall_friction = 0.4;     // bead on wall and gate [-]
+};
+
+struct BeadSettings {
+  Vector tank{};                // inner size [m]; y is up
+  bool periodic_depth = true;   // z joined to itself; otherwise walls at 0 and tank[2]
+  double diameter = 0.0;        // [m]
+  double density = 0.0;         // [kg/m3]
+  ContactLaw law;
+  double dt = 1e-5;             // [s]
+  double gravity = 9.81;        // along -y [m/s2]; negative pulls up
+  std::optional<double> gate;   // x of a vertical plate over the whole depth [m]
+  double gate_height = 0.0;     // upper edge of the plate at the start [m]
+  std::string scratch_folder;   // for the files that LIGGGHTS reads
+};
+
+// Positions and velocities, three numbers a bead: x, y, z of bead 0, of bead 1, ...
+struct BeadState {
+  std::vector<double> position;  // [m]
+  std::vector<double> velocity;  // [m/s]
+  std::size_t count() const { return position.size() / 3; }
+};
+
+}  // namespace demvof

@@ -1,0 +1,22 @@
+// The files that LIGGGHTS reads: beads (read_data) and the gate (STL).
+#pragma once
+
+#include <string>
+
+#include "reference/demvof/beads/bead_settings.hpp"
+
+namespace demvof {
+
+// Box in which LIGGGHTS works: the tank, with room for half-sunk floor beads and for a raised gate.
+struct WorkBox {
+  Vector lower{}, upper{};
+};
+WorkBox work_box(const BeadSettings& settings);
+
+// Types: 1 mobile bead, 2 frozen bead, 3 walls. Identifiers count from 1, mobile beads first.
+// Throws std::runtime_error if the file cannot be written.
+void write_beads(const std::string& path, const BeadSettings& settings, const BeadState& mobile,
+                 const std::vector<double>& frozen_positions);
+void write_gate(const std::string& path, const BeadSettings& settings);
+
+}  // namespace demvof

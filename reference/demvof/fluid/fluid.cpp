@@ -1,0 +1,121 @@
+#include "reference/demvof/fluid/fluid.hpp"
+
+#include <stdexcept>
+
+#include "reference/demvof/fluid/fluid_fields.hpp"
+
+namespace demvof {
+
+namespace {
+
+using namespace Foam;
+
+std::string message_of(const error& problem) {
+  return "OpenFOAM: " + std::string(problem.message());
+}
+
+}  // namespace
+
+Fluid::Fluid(const FluidSettings& settings, const std::vector<double>& alpha, const std::vector<double>& void_fraction) {
+  try {
+    fields_ = std::make_unique<Fields>(settings, alpha, void_fraction);
+  } catch (const error& problem) {
+    throw std::runtime_error(message_of(problem));
+  }
+  Fields& f = *fields_;
+  // Until the first step the beads feel the hydrostatic gradient.
+  f.grad_p = f.rho * f.gravity();
+  refresh_view();
+}
+
+Fluid::~Fluid() = default;
+
+double Fluid::time() const { return fields_->time.value(); }
+
+void Fluid::set_gate(int face, const std::vector<double>& open) {
+  Fields& f = *fields_;
+  f.open.primitiveFieldRef() = 1.0;
+  if (open.empty()) return;
+  const int nx = f.settings.cells[0], ny = f.settings.cells[1];
+  const labelList& owner = f.mesh.owner();
+  const labelList& neighbour = f.mesh.neighbour();
+  forAll(owner, i) {
+    if (neighbour[i] == owner[i] + 1 && nx > 1 && owner[i] % nx == face - 1) {
+      f.open[i] = open[static_cast<std::size_t>((owner[i] / nx) % ny)];
+    }
+  }
+}
+
+void Fluid::step(double dt, const BeadLoad& load) {
+  Fields& f = *fields_;
+  try {
+    f.time.setDeltaT(dt);
+    ++f.time;
+    // The first write access of the new time index keeps the old value; without it eps would have no past.
+    f.eps.oldTime();
+    f.U.oldTime();
+    f.alpha.oldTime();
+    scalarField& eps = f.eps.primitiveFieldRef();
+    forAll(eps, cell) {
+      const std::size_t c = static_cast<std::size_t>(cell);
+      eps[cell] = load.void_fraction[c];
+      f.drag[cell] = load.drag_coefficient[c];
+      f.force[cell] = vector(load.force[0][c], load.force[1][c], load.force[2][c]);
+    }
+    f.eps.correctBoundaryConditions();
+    solve_momentum_and_pressure(f);
+    solve_interface(f);
+  } catch (const error& problem) {
+    throw std::runtime_error(message_of(problem));
+  }
+  boundary_force_ = f.boundary_force;
+  refresh_view();
+  if (!std::isfinite(largest_speed()) || !std::isfinite(liquid_volume())) {
+    throw std::runtime_error("the fluid blew up (a value is not finite)");
+  }
+}
+
+void Fluid::refresh_view() {
+  const Fields& f = *fields_;
+  const std::size_t n = static_cast<std::size_t>(f.mesh.nCells());
+  view_.alpha.resize(n);
+  view_.pressure.resize(n);
+  for (int d = 0; d < 3; ++d) {
+    view_.velocity[d].resize(n);
+    view_.pressure_gradient[d].resize(n);
+  }
+  for (std::size_t c = 0; c < n; ++c) {
+    const label cell = static_cast<label>(c);
+    view_.alpha[c] = f.alpha[cell];
+    view_.pressure[c] = f.p_rgh[cell] + f.rho[cell] * f.gh[cell];
+    for (int d = 0; d < 3; ++d) {
+      view_.velocity[d][c] = f.U[cell][d];
+      view_.pressure_gradient[d][c] = f.grad_p[cell][d];
+    }
+  }
+
+  courant_ = courant_liquid_ = 0.0;
+  const scalarField flux(fvc::surfaceSum(mag(f.phi))().primitiveField());
+  for (std::size_t c = 0; c < n; ++c) {
+    const label cell = static_cast<label>(c);
+    const double rate = 0.5 * flux[cell] / (f.eps[cell] * f.cell_volume());
+    courant_ = std::max(courant_, rate);
+    if (f.alpha[cell] > 1e-3) courant_liquid_ = std::max(courant_liquid_, rate);
+  }
+}
+
+double Fluid::liquid_volume() const {
+  const Fields& f = *fields_;
+  return f.cell_volume() * sum(f.eps.primitiveField() * f.alpha.primitiveField());
+}
+
+Vector Fluid::momentum() const {
+  const Fields& f = *fields_;
+  const vector total =
+      f.cell_volume() * sum(f.eps.oldTime().primitiveField() * f.rho.oldTime().primitiveField() * f.U.primitiveField());
+  return {{total.x(), total.y(), total.z()}};
+}
+
+double Fluid::largest_speed() const { return max(mag(fields_->U.primitiveField())); }
+
+}  // namespace demvof

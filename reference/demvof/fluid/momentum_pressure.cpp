@@ -1,0 +1,86 @@
+// Momentum with implicit drag, and the pressure that gives the flux its divergence -d(eps)/dt.
+#include "reference/demvof/fluid/fluid_fields.hpp"
+
+#include "constrainHbyA.H"
+#include "constrainPressure.H"
+
+namespace demvof {
+
+namespace {
+
+using namespace Foam;
+
+constexpr int pressure_corrections = 2;
+
+// Force of the boundary on the fluid: pressure on the patches, friction, momentum carried through the top, and
+// the pressure jump that a gate carries.
+Vector force_of_boundary(const Fluid::Fields& f, const volScalarField& mu, const surfaceScalarField& gate_jump) {
+  vector total = vector::zero;
+  forAll(f.mesh.boundary(), patch) {
+    if (f.mesh.boundary()[patch].type() == "empty") continue;
+    const fvPatch& p = f.mesh.boundary()[patch];
+    // The pressure on the face: reached from the cell by half a step of the same face gradient.
+    const scalarField pressure(f.p_rgh.boundaryField()[patch] +
+                               f.rho.boundaryField()[patch] * f.ghf.boundaryField()[patch]);
+    total -= sum(pressure * p.Sf());
+    total += sum(f.eps.boundaryField()[patch] * mu.boundaryField()[patch] * p.magSf() *
+                 f.U.boundaryField()[patch].snGrad());
+    total -= sum(f.rho_phi.boundaryField()[patch] * f.U.boundaryField()[patch]);
+  }
+  forAll(gate_jump, face) {
+    if (f.open[face] < 1.0) total += gate_jump[face] * f.mesh.Sf()[face];
+  }
+  return {{total.x(), total.y(), total.z()}};
+}
+
+}  // namespace
+
+void solve_momentum_and_pressure(Fluid::Fields& f) {
+  const fvMesh& mesh = f.mesh;
+  const dimensionedScalar dt("dt", dimTime, f.time.deltaTValue());
+  const volVectorField& U_old = f.U.oldTime();
+  // Inertia of what the last interface step left behind; its mass flux belongs to the same eps and alpha, so
+  // that momentum is carried without gain or loss.
+  const volScalarField inertia(f.eps.oldTime() * f.rho / dt);
+  const volScalarField mu(effective_viscosity(f));
+  const surfaceScalarField mu_face(fvc::interpolate(f.eps * mu) * f.open);
+
+  fvVectorMatrix equation(fvm::Sp(inertia, f.U) + fvm::div(f.rho_phi, f.U, "div(rhoPhi,U)") -
+                          fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
+                          (inertia + fvc::div(f.rho_phi)) * U_old + f.drag * U_old + f.force +
+                              fvc::div(f.eps * mu * dev2(T(fvc::grad(f.U))), "div(viscous)"));
+
+  const volScalarField rAU(1.0 / equation.A());
+  const surfaceScalarField eps_face(fvc::interpolate(f.eps));
+  const surfaceScalarField coefficient("Dp", eps_face * fvc::interpolate(rAU * f.eps));
+  const volScalarField swelling((f.eps - f.eps.oldTime()) / dt);
+  surfaceScalarField gate_jump("gateJump", 0.0 * f.ghf * fvc::interpolate(f.rho));
+
+  for (int correction = 0; correction < pressure_corrections; ++correction) {
+    const volVectorField HbyA(constrainHbyA(rAU * equation.H(), f.U, f.p_rgh));
+    const surfaceScalarField inertial_flux(eps_face * fvc::flux(HbyA));
+    const surfaceScalarField buoyancy(-f.ghf * fvc::snGrad(f.rho) * mesh.magSf());
+    surfaceScalarField flux("phiHbyA", f.open * (inertial_flux + coefficient * buoyancy));
+    constrainPressure(f.p_rgh, f.U, flux, coefficient);
+
+    const surfaceScalarField open_coefficient("DpOpen", coefficient * f.open);
+    fvScalarMatrix pressure(fvm::laplacian(open_coefficient, f.p_rgh) == fvc::div(flux) + swelling);
+    if (f.closed) pressure.setReference(0, 0.0);
+    const bool last = correction == pressure_corrections - 1;
+    pressure.solve(mesh.solver(last ? "p_rghFinal" : "p_rgh"));
+    f.phi = flux - pressure.flux();
+
+    // Where a gate stands, the face carries what stops the flux, on the closed share of the face.
+    const surfaceScalarField through(buoyancy - fvc::snGrad(f.p_rgh) * mesh.magSf());
+    const surfaceScalarField stopped(-inertial_flux / coefficient);
+    const surfaceScalarField pull(f.open * through + (1.0 - f.open) * stopped);
+    const volVectorField reconstructed(fvc::reconstruct(pull));
+    f.U = HbyA + rAU * f.eps * reconstructed;
+    f.U.correctBoundaryConditions();
+    f.grad_p.primitiveFieldRef() = f.rho.primitiveField() * f.gravity().value() - reconstructed.primitiveField();
+    gate_jump = (pull - through) / mesh.magSf() / mesh.deltaCoeffs();
+  }
+  f.boundary_force = force_of_boundary(f, mu, gate_jump);
+}
+
+}  // namespace demvof
