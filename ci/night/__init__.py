@@ -1,0 +1,1 @@
+"""Parts of the nightly run (ci/nightly): stages, history, change detection, trends, summary."""

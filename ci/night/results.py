@@ -1,0 +1,44 @@
+"""Reads what a verification left behind (results.json) and the measured times into rows of the history."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+from night.history import Cost, Metric
+
+
+def _number(value: object, where: str) -> float | None:
+    if value is None:
+        return None
+    number = float(value)  # type: ignore[arg-type]
+    if not math.isfinite(number):
+        raise ValueError(f"{where}: not a finite number")
+    return number
+
+
+def read_verification(path: Path) -> tuple[list[Metric], list[Cost]]:
+    """Metrics and core-seconds of a results.json; both empty where there is none (the stage did not get so far)."""
+    if not path.exists():
+        return [], []
+    data = json.loads(path.read_text(encoding="utf-8"))
+    metrics = [
+        Metric(r["id"], r["scene"], r["metric"], r["unit"], _number(r["value"], r["id"]),
+               _number(r["reference"], r["id"]), r["verdict"], bool(r["unexpected"]))
+        for r in data["results"]
+    ]
+    costs = [
+        Cost(f"{run['id']} core-seconds", "s", float(run["numbers"]["core_seconds"]))
+        for run in data["runs"]
+        if run.get("numbers", {}).get("core_seconds") is not None
+    ]
+    return metrics, costs
+
+
+def read_times(path: Path) -> list[Cost]:
+    """Costs of a times.json: {"name": {"value": seconds, "unit": "s"}, ...}; empty where there is none."""
+    if not path.exists():
+        return []
+    data = json.loads(path.read_text(encoding="utf-8"))
+    return [Cost(name, entry["unit"], float(entry["value"])) for name, entry in data.items()]

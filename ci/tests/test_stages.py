@@ -1,0 +1,111 @@
+"""Stages: order, logs, time limits, blocking, resuming."""
+
+import os
+import sys
+import time
+
+import pytest
+
+from night import stages
+from night.stages import Stage, StageRun, run_stages
+
+PYTHON = sys.executable
+
+
+def execute(tmp_path, plan, run=None):
+    run = run or StageRun(tmp_path / "run")
+    run.save()
+    run_stages(plan, run, lambda line: None)
+    return run
+
+
+def status(run):
+    return {name: outcome.status for name, outcome in run.outcomes.items()}
+
+
+def test_log_holds_commands_and_output(tmp_path):
+    run = execute(tmp_path, [Stage("one", tmp_path, 20, [["echo", "hello"], ["sh", "-c", "echo oops >&2"]])])
+    log = (run.directory / "1-one.log").read_text()
+    assert log == "$ echo hello\nhello\n$ sh -c echo oops >&2\noops\n"
+    assert status(run) == {"one": "passed"}
+
+
+def test_first_failing_command_ends_the_stage(tmp_path):
+    run = execute(tmp_path, [Stage("one", tmp_path, 20, [["sh", "-c", "exit 3"], ["touch", "never"]])])
+    assert status(run) == {"one": "failed"}
+    assert "exit code 3" in (run.directory / "1-one.log").read_text()
+    assert not (tmp_path / "never").exists()
+
+
+def test_failure_blocks_only_what_needs_it(tmp_path):
+    run = execute(tmp_path, [
+        Stage("build", tmp_path, 20, [["false"]]),
+        Stage("tests", tmp_path, 20, [["touch", "never"]], needs=["build"]),
+        Stage("after", tmp_path, 20, [["true"]], needs=["tests"]),
+        Stage("report", tmp_path, 20, [["true"]]),
+    ])
+    assert status(run) == {"build": "failed", "tests": "blocked", "after": "blocked", "report": "passed"}
+    assert not (tmp_path / "never").exists()
+
+
+def test_missing_part_and_missing_program(tmp_path):
+    run = execute(tmp_path, [
+        Stage("part", tmp_path, 20, [["true"]], part="not/here"),
+        Stage("program", tmp_path, 20, [["./not-here"]]),
+    ])
+    assert status(run) == {"part": "not available", "program": "failed"}
+
+
+def test_watchdog_ends_the_stage_and_its_children(tmp_path, monkeypatch):
+    monkeypatch.setattr(stages, "GRACE", 0.5)
+    # The child ignores the polite request and would outlive its parent.
+    child = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); open('up', 'w').close(); time.sleep(60)"
+    parent = (f"import os, subprocess, sys, time; p = subprocess.Popen([sys.executable, '-c', {child!r}]);"
+              "open('pid.part', 'w').write(str(p.pid)); os.rename('pid.part', 'pid'); time.sleep(60)")
+    started = time.monotonic()
+    run = execute(tmp_path, [Stage("slow", tmp_path, 2.0, [[PYTHON, "-c", parent]]), Stage("next", tmp_path, 20, [["true"]])])
+    assert time.monotonic() - started < 20
+    assert status(run) == {"slow": "timed out", "next": "passed"}
+    assert "time limit of 2 s" in (run.directory / "1-slow.log").read_text()
+    assert (tmp_path / "up").exists()
+    pid = int((tmp_path / "pid").read_text())
+    for _ in range(100):  # an orphan is reaped by whoever adopts it, soon after
+        try:
+            with open(f"/proc/{pid}/stat") as stat:
+                gone = stat.read().rsplit(")", 1)[1].split()[0] == "Z"
+        except FileNotFoundError:
+            gone = True
+        if gone:
+            break
+        time.sleep(0.05)
+    assert gone
+
+
+def test_time_limit_is_for_the_stage_as_a_whole(tmp_path):
+    nap = [PYTHON, "-c", "import time; time.sleep(0.8)"]
+    run = execute(tmp_path, [Stage("naps", tmp_path, 1.2, [nap, nap])])
+    assert status(run) == {"naps": "timed out"}
+
+
+def test_resumes_after_the_last_finished_stage(tmp_path):
+    count = [["sh", "-c", "echo x >> count"]]
+    with pytest.raises(KeyboardInterrupt):
+        def interrupt():
+            raise KeyboardInterrupt
+        execute(tmp_path, [Stage("one", tmp_path, 20, count), Stage("two", tmp_path, 20, action=interrupt)])
+    again = StageRun.load(tmp_path / "run")
+    assert status(again) == {"one": "passed"} and not again.finished
+    run = execute(tmp_path, [Stage("one", tmp_path, 20, count), Stage("two", tmp_path, 20, count)], again)
+    assert status(run) == {"one": "passed", "two": "passed"}
+    assert (tmp_path / "count").read_text() == "x\nx\n"  # one once, two once
+
+
+def test_action_decides(tmp_path):
+    run = execute(tmp_path, [Stage("good", tmp_path, 20, action=lambda: True), Stage("bad", tmp_path, 20, action=lambda: False)])
+    assert status(run) == {"good": "passed", "bad": "failed"}
+
+
+def test_stage_reads_no_terminal(tmp_path):
+    run = execute(tmp_path, [Stage("input", tmp_path, 20, [["cat"]])])
+    assert status(run) == {"input": "passed"}
+    assert os.path.getsize(run.directory / "1-input.log") < 20
