@@ -43,6 +43,12 @@ Measured run_out_exponent(const Run& run, const Parameters& p, const FindRun&) {
   return measured(fit ? std::optional(fit->exponent) : std::nullopt, "fewer than two samples of the front");
 }
 
+Measured deposit_height(const Run& run, const Parameters& p, const FindRun&) {
+  const auto shape = deposit_at(run, *p.at);
+  if (!shape) return {std::nullopt, "undefined: no fields with a bed at that T"};
+  return {shape->peak / column_of(run.scene).height, ""};
+}
+
 Measured flat_top(const Run& run, const Parameters& p, const FindRun&) {
   const auto shape = deposit_at(run, *p.at);
   return measured(shape ? std::optional(shape->flat_top) : std::nullopt, "no fields with a bed at that T");
@@ -63,20 +69,23 @@ Measured base_pressure_sign(const Run& run, const Parameters& p, const FindRun&)
 
 // --- floating bed --------------------------------------------------------------------------------------
 
-Measured immersed_share_of(const Run& run, const Parameters& p, std::string_view height) {
-  const auto found = immersion(run.curve("y_c"), run.curve(height), run.curve("interface_height"), *p.window);
+Measured immersed_share_of(const Run& run, const Parameters& p, const char* centre, const char* height) {
+  const auto found =
+      immersion(run.curve(centre), run.curve(height), run.curve("interface_height"), *p.window);
   return measured(found ? std::optional(found->share()) : std::nullopt,
                   "the bed has not compacted in the window");
 }
 
-// The paper's H counts the rows with f_s > 0.95 f_s,min, which is up to a cell short; the height of the same
-// solids at the packing of those rows is not.
-Measured immersed_share(const Run& run, const Parameters& p, const FindRun&) {
-  return immersed_share_of(run, p, "bed_height_equivalent");
+// The paper's own: y_c and H of the cells with f_s > 0.95 f_s,min. Both jump by half a cell when a row of
+// cells passes the threshold.
+Measured immersed_share_cells(const Run& run, const Parameters& p, const FindRun&) {
+  return immersed_share_of(run, p, "y_c", "bed_height");
 }
 
-Measured immersed_share_rows(const Run& run, const Parameters& p, const FindRun&) {
-  return immersed_share_of(run, p, "bed_height");
+// From all solids and their height at the packing of the dense rows: the same for a bed that holds together,
+// and free of the threshold.
+Measured immersed_share(const Run& run, const Parameters& p, const FindRun&) {
+  return immersed_share_of(run, p, "y_solid_mean", "bed_height_equivalent");
 }
 
 Measured period(const Run& run, const Parameters& p, const FindRun&) {
@@ -84,10 +93,13 @@ Measured period(const Run& run, const Parameters& p, const FindRun&) {
   return measured(found ? std::optional(found->period) : std::nullopt, "fewer than two cycles in the window");
 }
 
+// The place of rest is the mean over the last tenth of the run.
 Measured decay_rate(const Run& run, const Parameters& p, const FindRun&) {
-  const auto found = exponential_approach(run.curve("y_solid_mean"), *p.window);
-  return measured(found ? std::optional(found->rate) : std::nullopt,
-                  "the curve holds no decay in the window");
+  const Curve height = run.curve("y_solid_mean");
+  if (height.empty()) return {std::nullopt, "undefined: no solids"};
+  const auto rest = time_mean(clip(height, {0.9 * height.time.back(), height.time.back()}));
+  if (!rest) return {std::nullopt, "undefined: the run is too short"};
+  return measured(approach_rate(height, *p.window, *rest), "the curve does not decay in the window");
 }
 
 // --- volumes, bounds, speeds, cost ---------------------------------------------------------------------
@@ -144,6 +156,8 @@ constexpr std::array table{
                 run_out_exponent},
     MetricEntry{"flat_top", "-", "share of the deposit's length within 5 % of its greatest height, at T = at",
                 at_only, flat_top},
+    MetricEntry{"deposit_height", "-", "greatest height of the deposit over h0, at T = at", at_only,
+                deposit_height},
     MetricEntry{"slope_drift", "deg", "slope at the end of the window less that at its begin", window_only,
                 slope_drift},
     MetricEntry{"base_pressure_peak", "Pa",
@@ -152,13 +166,14 @@ constexpr std::array table{
     MetricEntry{"base_pressure_sign", "-",
                 "sign of the time integral of the excess pore pressure at the base",
                 Needs{.window = true, .quiet = true}, base_pressure_sign},
-    MetricEntry{"immersed_share", "-", "h/H, time means, H from the bed's solids at its dense packing",
+    MetricEntry{"immersed_share", "-", "h/H of all solids, H at the packing of the dense rows, time means",
                 window_only, immersed_share},
-    MetricEntry{"immersed_share_rows", "-", "h/H, time means, H of the rows with f_s > 0.95 f_s,min",
-                window_only, immersed_share_rows},
+    MetricEntry{"immersed_share_cells", "-", "h/H of the cells with f_s > 0.95 f_s,min, eq (27), time means",
+                window_only, immersed_share_cells},
     MetricEntry{"period", "s", "period of the height of all solids, from crossings of its mean", window_only,
                 period},
-    MetricEntry{"decay_rate", "1/s", "k of y = rest + A exp(-k t), y the height of all solids", window_only,
+    MetricEntry{"decay_rate", "1/s",
+                "k of y = rest + A exp(-k t), y the height of all solids, rest its late mean", window_only,
                 decay_rate},
     MetricEntry{"solid_volume_error", "-", "largest relative change of the solid volume", none,
                 solid_volume_error},

@@ -202,6 +202,7 @@ std::string id_of(const Check& check) {
   std::string id = fmt::format("{}.{}", check.run, check.metric);
   if (check.parameters.at) id += fmt::format("@{}", *check.parameters.at);
   if (check.parameters.against) id += fmt::format("-{}", *check.parameters.against);
+  if (!check.label.empty()) id += fmt::format(".{}", check.label);
   return id + fmt::format(".{}", name_of(check.reference.kind));
 }
 
@@ -228,10 +229,11 @@ std::vector<Check> read_check(const Entry& entry) {
     check.expected_failure = {failure.text("reason"), failure.non_negative("distance")};
     if (!check.asserted) entry.fail("expected_failure", "a row that is not asserted cannot fail");
   }
+  if (entry.has("label")) check.label = entry.text("label");
   std::vector<Check> checks;
   for (const std::string& run : entry.texts("run")) {
     check.run = run;
-    check.id = id_of(check) + (entry.has("label") ? fmt::format(".{}", entry.text("label")) : "");
+    check.id = id_of(check);
     checks.push_back(check);
   }
   return checks;

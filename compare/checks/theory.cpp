@@ -50,7 +50,11 @@ std::optional<double> solid_fraction_max(const Run& run, const Parameters&) {
   return run.scene.contact.solid_fraction_max;
 }
 
-constexpr std::array<FormulaEntry, 4> table{{
+std::optional<double> triangle_flat_top(const Run&, const Parameters&) {
+  return 0.05 / 0.95;
+}
+
+constexpr std::array<FormulaEntry, 5> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
@@ -61,6 +65,8 @@ constexpr std::array<FormulaEntry, 4> table{{
      "for "
      "slow flow, at f_s,min",
      floating_decay_rate},
+    {"triangle_flat_top", "-", "a triangle's share within 5 % of its tip of the length above 5 % of it",
+     triangle_flat_top},
     {"solid_fraction_max", "-", "f_s,max of (13)", solid_fraction_max},
 }};
 

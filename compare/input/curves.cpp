@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "compare/metrics/base_pressure.hpp"
-#include "compare/metrics/run_out.hpp"
 
 namespace granvof::compare {
-namespace {
-
 ColumnSize column_of(const Scene& scene) {
   return {scene.bed->box.upper[1] - scene.bed->box.lower[1], scene.gravity};
 }
-
-}  // namespace
 
 Curve run_out_curve(const Run& run) {
   if (!run.scene.bed) return {};

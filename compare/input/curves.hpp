@@ -6,8 +6,12 @@
 
 #include "compare/input/run.hpp"
 #include "compare/metrics/deposit_shape.hpp"
+#include "compare/metrics/run_out.hpp"
 
 namespace granvof::compare {
+
+// h0 and g of a scene with a bed.
+ColumnSize column_of(const Scene& scene);
 
 // Run-out (l - l0) / h0 [-] against T [-]; empty for a scene without a bed.
 Curve run_out_curve(const Run& run);

@@ -5,17 +5,10 @@
 
 namespace granvof::compare {
 
-struct Decay {
-  double rate = 0.0;       // k [1/s]
-  double rest = 0.0;       // the value approached
-  double amplitude = 0.0;  // A at the start of the window
-  double residual = 0.0;   // rms misfit divided by |A|
-};
-
-// Overdamped approach: y = rest + A exp(-k (t - t0)) fitted over the window by least squares; `rest` and A
-// are linear in the fit, k is searched between 0.1 and 200 window lengths. Nothing for fewer than five
-// samples or where the best k lies at an end of the range (the curve holds no decay).
-std::optional<Decay> exponential_approach(const Curve& curve, Window window);
+// Overdamped approach to `rest`: minus the slope of log |y - rest| against time over the window, least
+// squares [1/s]. Nothing for fewer than three samples off `rest`, or where the deviation changes sign in the
+// window: what is left of it there is not a decay.
+std::optional<double> approach_rate(const Curve& curve, Window window, double rest);
 
 // Oscillation: least squares of log |deviation from the mean| through the extremes of each half cycle.
 std::optional<double> envelope_decay_rate(const Curve& curve, Window window);

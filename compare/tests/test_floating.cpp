@@ -64,19 +64,19 @@ TEST(Period, NeedsTwoCycles) {
   EXPECT_FALSE(oscillation(Curve{}, {0.0, 6.0}));
 }
 
-TEST(DecayRate, FindsRateAndRestWithoutBeingToldTheRest) {
-  const Curve curve = sampled(4.0, 400, [](double t) { return 0.05 - 0.02 * std::exp(-2.4 * t); });
-  const auto found = exponential_approach(curve, {0.5, 2.0});
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(found->rate, 2.4, 1e-6);
-  EXPECT_NEAR(found->rest, 0.05, 1e-9);
-  EXPECT_NEAR(found->amplitude, -0.02 * std::exp(-2.4 * 0.5), 1e-9);
-  EXPECT_LT(found->residual, 1e-9);
+TEST(DecayRate, OfAnExponentialApproachFromEitherSide) {
+  for (const double amplitude : {-0.02, 0.02}) {
+    const Curve curve = sampled(4.0, 400, [&](double t) { return 0.05 + amplitude * std::exp(-2.4 * t); });
+    EXPECT_NEAR(*approach_rate(curve, {0.5, 2.0}, 0.05), 2.4, 1e-9);
+  }
 }
 
-TEST(DecayRate, OfAStraightLineOrAConstantIsUndefined) {
-  EXPECT_FALSE(exponential_approach(sampled(4.0, 400, [](double t) { return 3.0 * t; }), {0.0, 4.0}));
-  EXPECT_FALSE(exponential_approach(Curve{{0.0, 1.0}, {1.0, 0.5}}, {0.0, 4.0}));
+TEST(DecayRate, IsUndefinedWhereTheDeviationChangesSign) {
+  const Curve curve = sampled(4.0, 400, [](double t) { return std::exp(-t); });
+  EXPECT_FALSE(approach_rate(curve, {0.0, 2.0}, 0.5));
+  EXPECT_FALSE(approach_rate(constant(0.5), {0.0, 2.0}, 0.5));
+  EXPECT_FALSE(approach_rate(curve, {0.0, 0.01}, 0.0));
+  EXPECT_FALSE(approach_rate(Curve{}, {0.0, 2.0}, 0.0));
 }
 
 TEST(DecayRate, EnvelopeOfADampedOscillation) {
