@@ -45,8 +45,8 @@ inline double dissipation(double f_s, double theta, double e, double g0, double 
          3.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * theta * div_u_s;
 }
 
-// The positive root w of a w^2 + b w = c; a >= 0, c >= 0, not both a and b zero. Written so that nothing cancels:
-// w = 2c / (b + sqrt(b^2 + 4ac)) for b >= 0. Returns 0 where c = 0 and b >= 0.
+// The positive root w of a w^2 + b w = c; a >= 0, c >= 0, not both a and b zero. Written so that nothing
+// cancels: w = 2c / (b + sqrt(b^2 + 4ac)) for b >= 0. Returns 0 where c = 0 and b >= 0.
 inline double positive_root(double a, double b, double c) {
   const double root = std::sqrt(b * b + 4.0 * a * c);
   if (b >= 0.0) return b + root > 0.0 ? 2.0 * c / (b + root) : 0.0;

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/closures/point_on_law.hpp"
 #include "solver/closures/solid_pressure.hpp"
 
 namespace granvof {
 namespace {
 
-// Globalisation of Newton's method on the stiff law P_s(f_s): dense starts (f_s = 0.61 against a weight that
-// 0.574 carries) cycle without it.
-constexpr double largest_move = 0.02;  // of a linearisation point in one iteration [-]
-constexpr int damping_starts = 5;      // iteration from which moves are damped
-constexpr double damping = 0.3;
 constexpr int upwinding_settles = 4;  // iteration from which the upwind directions are kept
 // A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope [Pa]:
 // where grains do not touch, a pressure error of volume_tolerance times this is meaningless (0.01 Pa).
@@ -204,31 +200,42 @@ void CoupledPressure::linearise(const SolidPressureState& law) {
 }
 
 // Distance of the present solution from the law; moves the linearisation points towards it.
-double CoupledPressure::move_points(int iteration, const SolidPressureState& law, const Field& p_s) {
+//
+// A cell where the solution (f_new, P_lin) is off the law gets as its next point the state its own balance
+// would take if its neighbours stayed: f + B P_s(f) = f_new + B P_lin, B = what a unit of P_s drives out of
+// the cell in dt. That line is flat for a loaded bed (the weight fixes P_s) and steep for grains being driven
+// together (the motion fixes f_s); tangents alone creep along the law, which grows like (f_s - f_s,min)^3.5.
+double CoupledPressure::move_points(double dt, const SolidPressureState& law, const Field& p_s) {
   const double *theta = law.theta.data(), *e = law.restitution.data(), *dp = dp_s_.data(),
                *p_old = p_s.data();
   const double* f_new = f_new_.data();
   double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
-  const double rho_s = scene_.solid.density;
+  const double rho_s = scene_.solid.density, tolerance = scene_.numerics.volume_tolerance;
   const bool dilatancy = scene_.model.dilatancy_pressure;
   const Contact& contact = scene_.contact;
-  const double share = iteration < damping_starts ? 1.0 : damping;
-  const double mismatch = max_over(grid_.cells, grid_.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
-    const auto there = closures::solid_pressure(f_new[c], theta[c], e[c], rho_s, contact, dilatancy);
-    const double p_solved = p_old[c] + dp[c];
+  std::array<const double*, 3> k22{};
+  for (int d = 0; d < grid_.dim; ++d) k22[d] = k22_[d].data();
+  const auto stride = grid_.cells.stride;
+  const int dim = grid_.dim;
+  return max_over(grid_.cells, grid_.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
+    const auto p_at = [&](double f) {
+      return closures::solid_pressure(f, theta[c], e[c], rho_s, contact, dilatancy);
+    };
+    const double p_lin = p_old[c] + dp[c];
+    auto there = p_at(std::fmax(f_new[c], 0.0));
     const double off =
-        std::fabs(there.value - std::max(p_solved, 0.0)) / std::max(there.slope, slope_that_matters);
-    const double move = std::clamp(share * (f_new[c] - pf[c]), -largest_move, largest_move);
-    const double before_f = pf[c], before_p = pp[c];
-    pf[c] = std::max(before_f + move, 0.0);
-    const auto p = closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy);
-    pp[c] = p.value;
-    // Upwards the law stiffens: its tangent at the lower point overshoots, the secant does not.
-    const double secant = move > 1e-12 ? (p.value - before_p) / move : 0.0;
-    slope[c] = std::max({p.slope, secant, closures::least_solid_pressure_slope});
+        std::fabs(there.value - std::fmax(p_lin, 0.0)) / std::fmax(there.slope, slope_that_matters);
+    pf[c] = std::fmax(f_new[c], 0.0);
+    if (off > tolerance) {
+      double compliance = 0.0;
+      for (int d = 0; d < dim; ++d) compliance += k22[d][c] + k22[d][c + stride[d]];
+      pf[c] = closures::point_on_law(p_at, f_new[c], p_lin, compliance * dt);
+      there = p_at(pf[c]);
+    }
+    pp[c] = there.value;
+    slope[c] = there.slope;
     return off;
   });
-  return mismatch;
 }
 
 linear::CoupledSystem CoupledPressure::system() const {
@@ -267,7 +274,7 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
     report.newton = iteration + 1;
     report.linear += r.iterations;
     correct(dt, f_s, u_s, u_c, flux_s, flux_c);
-    report.mismatch = move_points(iteration, law, p_s);
+    report.mismatch = move_points(dt, law, p_s);
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
     if (r.converged && report.mismatch <= numerics.volume_tolerance) {

@@ -50,7 +50,7 @@ class CoupledPressure {
   void correct(double dt, const Field& f_s, const FaceField& us_predicted, const FaceField& uc_predicted,
                FaceField& flux_s, FaceField& flux_c);
   void linearise(const SolidPressureState& law);
-  double move_points(int iteration, const SolidPressureState& law, const Field& p_s);
+  double move_points(double dt, const SolidPressureState& law, const Field& p_s);
   linear::CoupledSystem system() const;
 
   const Grid& grid_;
