@@ -49,8 +49,9 @@ struct ExpectedFailure {
 };
 
 struct Check {
-  std::string id;   // unique
-  std::string run;  // id of the run it reads
+  std::string id;     // unique
+  std::string label;  // tells rows of the same metric apart; may be empty
+  std::string run;    // id of the run it reads
   std::string metric;
   Parameters parameters;
   Reference reference;
