@@ -1,0 +1,94 @@
+#include <Eigen/SparseCholesky>
+#include <gtest/gtest.h>
+
+#include "solver/linear/conjugate_gradient.hpp"
+#include "solver/linear/multigrid.hpp"
+#include "solver/tests/linear/problem.hpp"
+
+namespace granvof::linear {
+namespace {
+
+using testing::Box;
+using testing::ScalarSystem;
+using testing::Values;
+using testing::Vector;
+
+// Two components on boxes of different size, coupled cell by cell where both exist: the friction solve in
+// small.
+TEST(ConjugateGradient, TwoComponentsWithABlockDiagonalPreconditioner) {
+  std::array<Box, 2> box{Box({17, 12, 1}), Box({16, 13, 1})};
+  std::array<ScalarSystem, 2> s{
+      ScalarSystem(box[0], [&](int, int, int) { return box[0].uniform(0.1, 10.0); }),
+      ScalarSystem(box[1], [&](int, int, int) { return box[1].uniform(0.1, 10.0); })};
+  for (int c = 0; c < 2; ++c) {
+    box[c].each([&](int i, int j, int k) {
+      s[c].mass[box[c].layout.index(i, j, k)] = 1.0;
+      s[c].rhs[box[c].layout.index(i, j, k)] = box[c].uniform(-1.0, 1.0);
+    });
+  }
+  const double coupling = 0.4;
+  const std::array<testing::Matrix, 2> matrix{s[0].matrix(box[0]), s[1].matrix(box[1])};
+  const auto apply = [&](const Components& p, const Components& q) {
+    for (int c = 0; c < 2; ++c) {
+      Vector v(matrix[c].rows());
+      box[c].each([&](int i, int j, int k) { v[box[c].row(i, j, k)] = p[c][box[c].layout.index(i, j, k)]; });
+      const Vector w = matrix[c] * v;
+      box[c].each([&](int i, int j, int k) {
+        double value = w[box[c].row(i, j, k)];
+        const auto& other = box[1 - c].layout;
+        if (i < 16 && j < 12) value += coupling * p[1 - c][other.index(i, j, k)];
+        q[c][box[c].layout.index(i, j, k)] = value;
+      });
+    }
+  };
+  const SerialCommunicator communicator;
+  Multigrid first(box[0].layout, communicator), second(box[1].layout, communicator);
+  first.set(s[0].faces, s[0].mass.data());
+  second.set(s[1].faces, s[1].mass.data());
+  const auto precondition = [&](const ConstComponents& r, const Components& z) {
+    first.apply(r[0], z[0], 2);
+    second.apply(r[1], z[1], 2);
+  };
+  ConjugateGradient solver({box[0].layout, box[1].layout}, communicator);
+  const Report report = solver.solve(apply, precondition, {s[0].rhs.data(), s[1].rhs.data()},
+                                     {s[0].x.data(), s[1].x.data()}, {0.0, 1e-10, 60});
+  EXPECT_TRUE(report.converged);
+  EXPECT_LT(report.iterations, 40);
+
+  const Eigen::Index n0 = matrix[0].rows(), n1 = matrix[1].rows();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int c = 0; c < 2; ++c)
+    for (Eigen::Index column = 0; column < matrix[c].outerSize(); ++column)
+      for (testing::Matrix::InnerIterator it(matrix[c], column); it; ++it)
+        entries.emplace_back(it.row() + (c ? n0 : 0), it.col() + (c ? n0 : 0), it.value());
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i < 16; ++i) {
+      entries.emplace_back(box[0].row(i, j, 0), n0 + box[1].row(i, j, 0), coupling);
+      entries.emplace_back(n0 + box[1].row(i, j, 0), box[0].row(i, j, 0), coupling);
+    }
+  testing::Matrix whole(n0 + n1, n0 + n1);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  Vector rhs(n0 + n1), x(n0 + n1);
+  rhs << box[0].gather(s[0].rhs), box[1].gather(s[1].rhs);
+  x << box[0].gather(s[0].x), box[1].gather(s[1].x);
+  const Vector exact = Eigen::SimplicialLDLT<testing::Matrix>(whole).solve(rhs);
+  EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-8 * exact.lpNorm<Eigen::Infinity>());
+  EXPECT_NEAR(report.final, (rhs - whole * x).lpNorm<Eigen::Infinity>(), 1e-13);
+}
+
+TEST(ConjugateGradient, IndefiniteOperatorIsReported) {
+  Box b({8, 8, 1});
+  Values rhs = b.values(1.0), x = b.values();
+  const SerialCommunicator communicator;
+  ConjugateGradient solver({b.layout}, communicator);
+  const auto apply = [&](const Components& p, const Components& q) {
+    b.each([&](int i, int j, int k) { q[0][b.layout.index(i, j, k)] = -p[0][b.layout.index(i, j, k)]; });
+  };
+  const auto precondition = [&](const ConstComponents& r, const Components& z) {
+    b.each([&](int i, int j, int k) { z[0][b.layout.index(i, j, k)] = r[0][b.layout.index(i, j, k)]; });
+  };
+  EXPECT_FALSE(solver.solve(apply, precondition, {rhs.data()}, {x.data()}, {0.0, 1e-8, 50}).converged);
+}
+
+}  // namespace
+}  // namespace granvof::linear
