@@ -6,5 +6,6 @@ function(granvof_test)
   target_link_libraries(${ARG_NAME} PRIVATE granvof_options ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${ARG_NAME} PRIVATE
     GRANVOF_CASES_DIR="${CMAKE_SOURCE_DIR}/cases")
-  gtest_discover_tests(${ARG_NAME} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
+  # Parameters are named by their index: some print as raw memory, different in every build.
+  gtest_discover_tests(${ARG_NAME} DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
 endfunction()
