@@ -15,10 +15,12 @@ endif()
 add_library(granvof_options INTERFACE)
 target_compile_options(granvof_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  # GCC 12 raises these two falsely, in the vector intrinsics under Eigen and inside fmt.
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
   # Neither errno nor floating-point traps are read anywhere; without these flags sqrt and selects do not vectorise.
   -fno-math-errno -fno-trapping-math)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 raises these two falsely, in the vector intrinsics under Eigen and inside fmt.
+  target_compile_options(granvof_options INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+endif()
 if(GRANVOF_NATIVE)
   target_compile_options(granvof_options INTERFACE -march=native)
   if(CCACHE_PROGRAM)
