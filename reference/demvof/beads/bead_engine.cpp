@@ -61,8 +61,9 @@ BeadEngine::BeadEngine(const BeadSettings& settings, const BeadState& mobile,
     command("group frozen type 2");
     command("neigh_modify exclude group frozen frozen");
   }
-  declare_materials(settings_.law.bead_friction);
-  const std::string rolling = settings_.law.rolling_friction > 0.0 ? " rolling_friction epsd2" : "";
+  rolling_ = settings_.law.rolling_friction > 0.0;
+  declare_materials();
+  const std::string rolling = rolling_ ? " rolling_friction epsd2" : "";
   command(fmt::format("pair_style {}{}", contact, rolling));
   command("pair_coeff * *");
   declare_walls();
@@ -93,9 +94,9 @@ void BeadEngine::command(const std::string& line) {
   lammps_command(lammps_, text.data());
 }
 
-void BeadEngine::declare_materials(double bead_friction) {
+void BeadEngine::declare_materials() {
   const ContactLaw& law = settings_.law;
-  const double bead = bead_friction, wall = law.wall_friction, e = law.restitution;
+  const double bead = law.bead_friction, wall = law.wall_friction, e = law.restitution;
   command("fix young all property/global youngsModulus peratomtype " + three(law.young, law.young, law.young));
   command("fix poisson all property/global poissonsRatio peratomtype " +
           three(law.poisson, law.poisson, law.poisson));
@@ -104,7 +105,7 @@ void BeadEngine::declare_materials(double bead_friction) {
                       row, row));
   command(fmt::format("fix friction all property/global coefficientFriction peratomtypepair 3 {} {} {}",
                       three(bead, bead, wall), three(bead, bead, wall), three(wall, wall, wall)));
-  if (law.rolling_friction > 0.0) {
+  if (rolling_) {
     const std::string rolling = three(law.rolling_friction, law.rolling_friction, law.rolling_friction);
     command(fmt::format("fix rolling all property/global coefficientRollingFriction peratomtypepair 3 {} {} {}",
                         rolling, rolling, rolling));
@@ -141,9 +142,9 @@ void BeadEngine::set_gravity(double gravity) {
   set_up_ = false;
 }
 
-void BeadEngine::set_friction(double bead_friction) {
-  settings_.law.bead_friction = bead_friction;
-  declare_materials(bead_friction);
+void BeadEngine::set_contact_law(const ContactLaw& law) {
+  settings_.law = law;
+  declare_materials();
   set_up_ = false;
 }
 

@@ -35,7 +35,7 @@ class BeadEngine {
   // State of the mobile beads, in the order in which they were given.
   const BeadState& state() const { return state_; }
 
-  void set_friction(double bead_friction);  // bead on bead, from now on
+  void set_contact_law(const ContactLaw& law);  // from now on; rolling friction only if there was some before
   void set_velocities(const std::vector<double>& velocity);
   void set_gravity(double gravity);
   void raise_gate(double speed);  // [m/s]
@@ -52,6 +52,7 @@ class BeadEngine {
   std::size_t mobile_ = 0, frozen_ = 0;
   BeadState state_;
   long steps_done_ = 0;
+  bool rolling_ = false;
   bool gate_present_ = false;
   bool gate_moving_ = false;
   bool set_up_ = false;  // whether the next run may skip LIGGGHTS' set-up
@@ -60,7 +61,7 @@ class BeadEngine {
   std::vector<double> gathered_;
 
   void command(const std::string& line);
-  void declare_materials(double bead_friction);
+  void declare_materials();
   void declare_walls();
   void declare_gate();
   void refresh_state();

@@ -8,7 +8,7 @@
 
 namespace demvof {
 
-using Vector = std::array<double, 3>;
+using Vector = std::array<double, 3>;  // as in fluid/fluid.hpp
 
 // Hertz contact with tangential history (Coulomb-limited), as LIGGGHTS has it.
 struct ContactLaw {

@@ -89,8 +89,8 @@ void Fluid::refresh_view() {
     view_.alpha[c] = f.alpha[cell];
     view_.pressure[c] = f.p_rgh[cell] + f.rho[cell] * f.gh[cell];
     for (int d = 0; d < 3; ++d) {
-      view_.velocity[d][c] = f.U[cell][d];
-      view_.pressure_gradient[d][c] = f.grad_p[cell][d];
+      view_.velocity[d][c] = f.U[cell][static_cast<direction>(d)];
+      view_.pressure_gradient[d][c] = f.grad_p[cell][static_cast<direction>(d)];
     }
   }
 

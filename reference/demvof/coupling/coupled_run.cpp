@@ -1,0 +1,167 @@
+#include "reference/demvof/coupling/coupled_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace demvof {
+
+namespace {
+
+constexpr double courant_limit = 0.5;       // of the liquid, per fluid step: MULES is explicit
+constexpr double least_void_fraction = 0.2;  // below it beads overlap: the run is lost
+
+std::vector<double> void_fraction(const std::vector<double>& solid_fraction) {
+  std::vector<double> eps(solid_fraction.size());
+  std::transform(solid_fraction.begin(), solid_fraction.end(), eps.begin(), [](double f) { return 1.0 - f; });
+  if (*std::min_element(eps.begin(), eps.end()) < least_void_fraction) {
+    throw std::runtime_error("the beads overlap: a cell holds more than 80 % solid");
+  }
+  return eps;
+}
+
+}  // namespace
+
+CoupledRun::CoupledRun(const CouplingSettings& settings, const BeadSettings& beads, const BeadState& mobile,
+                       const std::vector<double>& frozen_positions, const FluidSettings& fluid,
+                       const std::vector<double>& alpha)
+    : settings_(settings), fluid_settings_(fluid), mapping_(fluid.cells, fluid.spacing) {
+  beads_ = std::make_unique<BeadEngine>(beads, mobile, frozen_positions);
+  mapping_.update(beads_->state().position);
+  deposit_solid_fraction();
+  fluid_ = std::make_unique<Fluid>(fluid, alpha, void_fraction(solid_fraction_));
+  load_.resize(mobile.count());
+  carry_.assign(3 * mobile.count(), 0.0);
+  reaction_.drag_coefficient.assign(mapping_.cell_count(), 0.0);
+  for (auto& component : reaction_.force) component.assign(mapping_.cell_count(), 0.0);
+  renew_load();
+}
+
+void CoupledRun::deposit_solid_fraction() {
+  solid_fraction_.assign(mapping_.cell_count(), 0.0);
+  mapping_.deposit(beads_->bead_volume() / mapping_.cell_volume(), solid_fraction_);
+}
+
+int CoupledRun::steps_that_fit(double longest) const {
+  const double dt = beads_->settings().dt;
+  double duration = settings_.fluid_dt;
+  const double rate = std::max(fluid_->courant_rate_liquid(), 0.25 * fluid_->courant_rate());
+  if (rate * duration > courant_limit) duration = courant_limit / rate;
+  // Equal shares of what is left: a short last step would break the lag of one step between the two sides.
+  const auto left = std::max(1L, std::lround(longest / dt));
+  const auto most = std::max(1L, static_cast<long>(std::floor(duration / dt * (1.0 + 1e-9))));
+  const long shares = (left + most - 1) / most;
+  return static_cast<int>((left + shares - 1) / shares);
+}
+
+std::vector<double> CoupledRun::drag_impulse(const std::vector<double>& old_position, double duration) const {
+  const std::vector<double>& position = beads_->state().position;
+  const bool wrap = beads_->settings().periodic_depth;
+  const double depth = beads_->settings().tank[2];
+  std::vector<double> impulse(position.size());
+  for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      const std::size_t n = 3 * bead + d;
+      double moved = position[n] - old_position[n];
+      if (d == 2 && wrap) moved -= depth * std::round(moved / depth);
+      impulse[n] = load_.coefficient[bead] * (load_.velocity[n] * duration - moved);
+    }
+  }
+  return impulse;
+}
+
+double CoupledRun::step(double longest) {
+  const int steps = steps_that_fit(longest);
+  const double duration = steps * beads_->settings().dt;
+
+  FluidLoad with_carry = load_;
+  for (std::size_t n = 0; n < carry_.size(); ++n) with_carry.force[n] += carry_[n] / duration;
+  const std::vector<double> old_position = beads_->state().position;
+  beads_->set_load(with_carry);
+  beads_->run(steps);
+
+  const std::vector<double> impulse = drag_impulse(old_position, duration);
+  mapping_.update(beads_->state().position);
+  deposit_solid_fraction();
+  reaction_.void_fraction = void_fraction(solid_fraction_);
+  const double volume = mapping_.cell_volume();
+  std::fill(reaction_.drag_coefficient.begin(), reaction_.drag_coefficient.end(), 0.0);
+  mapping_.deposit(load_.coefficient, 1, 0, reaction_.drag_coefficient);
+  for (double& k : reaction_.drag_coefficient) k /= volume;
+  for (int d = 0; d < 3; ++d) {
+    std::vector<double>& force = reaction_.force[static_cast<std::size_t>(d)];
+    std::fill(force.begin(), force.end(), 0.0);
+    mapping_.deposit(impulse, 3, d, force);
+    for (double& f : force) f *= -1.0 / (volume * duration);
+  }
+
+  const auto old_velocity = fluid_->view().velocity;
+  fluid_->step(duration, reaction_);
+  time_ += duration;
+  last_duration_ = duration;
+
+  for (int d = 0; d < 3; ++d) {
+    std::vector<double> change = fluid_->view().velocity[static_cast<std::size_t>(d)];
+    const std::vector<double>& old = old_velocity[static_cast<std::size_t>(d)];
+    for (std::size_t c = 0; c < change.size(); ++c) change[c] -= old[c];
+    mapping_.gather(change, 3, d, carry_);
+  }
+  for (std::size_t n = 0; n < carry_.size(); ++n) carry_[n] *= load_.coefficient[n / 3] * duration;
+  renew_load();
+  return duration;
+}
+
+void CoupledRun::renew_load() {
+  const FluidView& view = fluid_->view();
+  const PhaseProperties gas{fluid_settings_.gas_density, fluid_settings_.gas_viscosity};
+  const PhaseProperties liquid{fluid_settings_.liquid_density, fluid_settings_.liquid_viscosity};
+  const double volume = beads_->bead_volume();
+  for (int d = 0; d < 3; ++d) {
+    const auto component = static_cast<std::size_t>(d);
+    mapping_.gather(view.velocity[component], 3, d, load_.velocity);
+    mapping_.gather(view.pressure_gradient[component], 3, d, load_.force);
+  }
+  for (double& f : load_.force) f *= -volume;
+  if (!settings_.drag) return;
+
+  std::vector<double> alpha(load_.coefficient.size()), f_s(load_.coefficient.size());
+  mapping_.gather(view.alpha, 1, 0, alpha);
+  mapping_.gather(solid_fraction_, 1, 0, f_s);
+  const std::vector<double>& velocity = beads_->state().velocity;
+  for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
+    const double slip = std::hypot(load_.velocity[3 * bead] - velocity[3 * bead],
+                                   load_.velocity[3 * bead + 1] - velocity[3 * bead + 1],
+                                   load_.velocity[3 * bead + 2] - velocity[3 * bead + 2]);
+    load_.coefficient[bead] = bead_drag(f_s[bead], std::clamp(alpha[bead], 0.0, 1.0), slip, gas, liquid,
+                                        beads_->settings().diameter);
+  }
+}
+
+void CoupledRun::set_gate_edge(int face, double edge) {
+  const auto rows = static_cast<std::size_t>(fluid_settings_.cells[1]);
+  std::vector<double> open(rows);
+  std::vector<bool> closed(rows);
+  for (std::size_t j = 0; j < rows; ++j) {
+    open[j] = std::clamp(edge / fluid_settings_.spacing[1] - static_cast<double>(j), 0.0, 1.0);
+    closed[j] = open[j] < 0.5;
+  }
+  fluid_->set_gate(face, open);
+  mapping_.set_gate(face, closed);
+}
+
+void CoupledRun::remove_gate() {
+  fluid_->set_gate(0, {});
+  mapping_.set_gate(-1, {});
+}
+
+Vector CoupledRun::momentum() const {
+  Vector total = fluid_->momentum();
+  const std::vector<double>& velocity = beads_->state().velocity;
+  const double mass = beads_->bead_mass();
+  for (std::size_t n = 0; n < velocity.size(); ++n) {
+    total[n % 3] += mass * velocity[n] + carry_[n] + load_.force[n] * last_duration_;
+  }
+  return total;
+}
+
+}  // namespace demvof

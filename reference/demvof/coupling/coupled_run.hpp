@@ -1,0 +1,70 @@
+// Beads and fluid advanced together, momentum handed over as impulses.
+//
+// One step of length T: beads move under the pressure gradient and drag of the last fluid step; the impulse that
+// each bead took through drag is K (u_f T - dx), dx its displacement, since the drag was re-evaluated every DEM
+// step; the fluid gets its opposite, and the new void fraction. The implicit part of the fluid's drag,
+// K (u_f,new - u_f,old) T, is handed to the beads in the next step, so that over a run the two sides exchange
+// exactly what they lose and gain but for one step's lag.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "reference/demvof/beads/bead_engine.hpp"
+#include "reference/demvof/coupling/drag_law.hpp"
+#include "reference/demvof/coupling/mapping.hpp"
+#include "reference/demvof/fluid/fluid.hpp"
+
+namespace demvof {
+
+struct CouplingSettings {
+  double fluid_dt = 2e-4;  // longest fluid step [s]; shortened where the liquid would move half a cell
+  bool drag = true;        // false: pressure gradient alone
+};
+
+class CoupledRun {
+ public:
+  CoupledRun(const CouplingSettings& settings, const BeadSettings& beads, const BeadState& mobile,
+             const std::vector<double>& frozen_positions, const FluidSettings& fluid,
+             const std::vector<double>& alpha);
+
+  // One step of at most `longest` [s] (a multiple of the DEM step, at least one). Returns its length.
+  // Throws std::runtime_error when either side fails.
+  double step(double longest);
+
+  // The gate's lower edge stands at `edge` [m] over the floor for the fluid; <= 0 closed.
+  // The beads' plate is moved by the bead engine.
+  void set_gate_edge(int face, double edge);
+  void remove_gate();
+
+  double time() const { return time_; }
+  BeadEngine& beads() { return *beads_; }
+  const BeadEngine& beads() const { return *beads_; }
+  const Fluid& fluid() const { return *fluid_; }
+  const std::vector<double>& solid_fraction() const { return solid_fraction_; }
+  const Mapping& mapping() const { return mapping_; }
+  const FluidLoad& load() const { return load_; }
+  // Momentum of beads and fluid [kg m/s]; what is on its way between them (drag carried over, the pressure of the
+  // last fluid step) counts with the beads.
+  Vector momentum() const;
+
+ private:
+  CouplingSettings settings_;
+  FluidSettings fluid_settings_;
+  Mapping mapping_;
+  std::unique_ptr<BeadEngine> beads_;
+  std::unique_ptr<Fluid> fluid_;
+  FluidLoad load_;                      // what the beads will feel in the next step, carry left out
+  std::vector<double> carry_;           // impulse owed to the beads [N s], three a bead
+  std::vector<double> solid_fraction_;  // a cell
+  BeadLoad reaction_;
+  double time_ = 0.0;
+  double last_duration_ = 0.0;
+
+  void deposit_solid_fraction();
+  void renew_load();
+  int steps_that_fit(double longest) const;
+  std::vector<double> drag_impulse(const std::vector<double>& old_position, double duration) const;
+};
+
+}  // namespace demvof

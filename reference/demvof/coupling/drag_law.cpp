@@ -1,0 +1,38 @@
+#include "reference/demvof/coupling/drag_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace demvof {
+
+namespace {
+
+// beta / f_s [kg/(m3 s)] of the packed branch.
+double packed(double f_s, double slip, const PhaseProperties& p, double d) {
+  return 150.0 * f_s * p.viscosity / ((1.0 - f_s) * d * d) + 1.75 * p.density * slip / d;
+}
+
+// beta / f_s of the dispersed branch: (3/4) C_D f_c^-1.65 rho slip / d, with C_D Re of (9).
+double dispersed(double f_s, double slip, const PhaseProperties& p, double d) {
+  const double re = p.density * slip * d / p.viscosity;
+  const double cd_re = 0.4 * re + 24.0 + 6.0 * re / (1.0 + std::sqrt(re));
+  return 0.75 * cd_re * p.viscosity / (d * d) * std::pow(1.0 - f_s, -1.65);
+}
+
+}  // namespace
+
+double bead_drag(double f_s, double slip, const PhaseProperties& fluid, double diameter) {
+  const double dilute = std::clamp(((1.0 - f_s) - 0.78) / 0.04, 0.0, 1.0);
+  double per_solid_volume = 0.0;
+  if (dilute > 0.0) per_solid_volume += dilute * dispersed(f_s, slip, fluid, diameter);
+  if (dilute < 1.0) per_solid_volume += (1.0 - dilute) * packed(f_s, slip, fluid, diameter);
+  return per_solid_volume * std::numbers::pi / 6.0 * diameter * diameter * diameter;
+}
+
+double bead_drag(double f_s, double alpha, double slip, const PhaseProperties& gas, const PhaseProperties& liquid,
+                 double diameter) {
+  return alpha * bead_drag(f_s, slip, liquid, diameter) + (1.0 - alpha) * bead_drag(f_s, slip, gas, diameter);
+}
+
+}  // namespace demvof

@@ -1,0 +1,90 @@
+#include "reference/demvof/coupling/mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace demvof {
+
+namespace {
+
+// The two cells around a position in one direction, and the weight of the second.
+struct Pair {
+  int first = 0, second = 0;
+  double weight = 0.0;
+};
+
+Pair around(double position, double spacing, int cells) {
+  const double s = position / spacing - 0.5;
+  const double below = std::floor(s);
+  const int first = static_cast<int>(below);
+  return {std::clamp(first, 0, cells - 1), std::clamp(first + 1, 0, cells - 1), s - below};
+}
+
+}  // namespace
+
+Mapping::Mapping(std::array<int, 3> cells, const Vector& spacing)
+    : cells_(cells),
+      spacing_(spacing),
+      cell_count_(static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) *
+                  static_cast<std::size_t>(cells[2])),
+      corners_(cells[2] > 1 ? 8 : 4) {}
+
+void Mapping::set_gate(int face, std::vector<bool> closed) {
+  gate_face_ = face;
+  closed_ = std::move(closed);
+}
+
+void Mapping::update(const std::vector<double>& position) {
+  beads_ = position.size() / 3;
+  index_.resize(beads_ * static_cast<std::size_t>(corners_));
+  weight_.resize(index_.size());
+  const double gate_x = gate_face_ * spacing_[0];
+  std::size_t out = 0;
+  for (std::size_t bead = 0; bead < beads_; ++bead) {
+    const double px = position[3 * bead];
+    const Pair x = around(px, spacing_[0], cells_[0]);
+    const Pair y = around(position[3 * bead + 1], spacing_[1], cells_[1]);
+    const Pair z = around(position[3 * bead + 2], spacing_[2], cells_[2]);
+    const bool astride = !closed_.empty() && x.first == gate_face_ - 1 && x.second == gate_face_;
+    for (int corner = 0; corner < corners_; ++corner) {
+      const bool right = (corner & 1) != 0, upper = (corner & 2) != 0, behind = (corner & 4) != 0;
+      const int j = upper ? y.second : y.first;
+      const int k = corners_ == 4 ? 0 : (behind ? z.second : z.first);
+      int i = right ? x.second : x.first;
+      if (astride && closed_[static_cast<std::size_t>(j)]) i = px < gate_x ? x.first : x.second;
+      double w = (right ? x.weight : 1.0 - x.weight) * (upper ? y.weight : 1.0 - y.weight);
+      if (corners_ == 8) w *= behind ? z.weight : 1.0 - z.weight;
+      index_[out] = (k * cells_[1] + j) * cells_[0] + i;
+      weight_[out++] = w;
+    }
+  }
+}
+
+void Mapping::deposit(const std::vector<double>& values, int stride, int offset, std::vector<double>& cells) const {
+  std::size_t in = 0;
+  for (std::size_t bead = 0; bead < beads_; ++bead) {
+    const double value = values[bead * static_cast<std::size_t>(stride) + static_cast<std::size_t>(offset)];
+    for (int corner = 0; corner < corners_; ++corner, ++in) {
+      cells[static_cast<std::size_t>(index_[in])] += weight_[in] * value;
+    }
+  }
+}
+
+void Mapping::deposit(double value, std::vector<double>& cells) const {
+  for (std::size_t in = 0; in < index_.size(); ++in) {
+    cells[static_cast<std::size_t>(index_[in])] += weight_[in] * value;
+  }
+}
+
+void Mapping::gather(const std::vector<double>& cells, int stride, int offset, std::vector<double>& values) const {
+  std::size_t in = 0;
+  for (std::size_t bead = 0; bead < beads_; ++bead) {
+    double sum = 0.0;
+    for (int corner = 0; corner < corners_; ++corner, ++in) {
+      sum += weight_[in] * cells[static_cast<std::size_t>(index_[in])];
+    }
+    values[bead * static_cast<std::size_t>(stride) + static_cast<std::size_t>(offset)] = sum;
+  }
+}
+
+}  // namespace demvof

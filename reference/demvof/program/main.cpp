@@ -1,0 +1,89 @@
+// The program demvof: run and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "reference/demvof/program/record_scene.hpp"
+#include "solver/output/output_error.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace {
+
+constexpr int bad_input = 2;
+
+struct Arguments {
+  std::string case_file;
+  std::vector<std::string> overrides;
+  demvof::RecordOptions record;
+};
+
+void add_case(CLI::App& command, Arguments& arguments) {
+  command.add_option("case", arguments.case_file, "Case file (TOML)")->required()->type_name("CASE");
+  command.add_option("--set", arguments.overrides, "Replace a key of the case; may be given again")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+int guarded(int (*action)(const Arguments&), const Arguments& arguments) {
+  try {
+    return action(arguments);
+  } catch (const granvof::CaseError& error) {
+    fmt::print(stderr, "demvof: {}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "demvof: {}\n", error.what());
+    return 1;
+  }
+}
+
+int run(const Arguments& arguments) {
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  demvof::RecordOptions options = arguments.record;
+  if (options.out.empty()) options.out = fmt::format("out/reference/{}/seed{}", scene.name, options.seed);
+  if (options.scratch.empty()) options.scratch = "out/reference/scratch";
+  return demvof::record_scene(scene, options);
+}
+
+int hash(const Arguments& arguments) {
+  fmt::print("{}\n", granvof::load_scene(arguments.case_file, arguments.overrides).hash);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("demvof: unresolved DEM-VOF with LIGGGHTS and OpenFOAM, the reference of granvof");
+  app.require_subcommand(1);
+  Arguments arguments;
+  arguments.record.command = fmt::format("{}", fmt::join(std::vector<std::string>(argv, argv + argc), " "));
+
+  CLI::App* run_command = app.add_subcommand("run", "Prepare, hold, release and run one scene with one seed");
+  add_case(*run_command, arguments);
+  run_command->add_option("--out", arguments.record.out, "Run directory")->type_name("DIR");
+  run_command->add_option("--scratch", arguments.record.scratch, "Folder for intermediate files")->type_name("DIR");
+  run_command->add_option("--seed", arguments.record.seed, "Seed of the column and the floor");
+  run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
+  run_command->add_flag("--progress", arguments.record.progress, "Say how far the run is");
+
+  CLI::App* hash_command = app.add_subcommand("hash", "Print the case hash that records carry");
+  add_case(*hash_command, arguments);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return bad_input;
+  }
+  MPI_Init(&argc, &argv);
+  const int code = guarded(*run_command ? run : hash, arguments);
+  MPI_Finalize();
+  return code;
+}

@@ -1,0 +1,188 @@
+#include "reference/demvof/program/scene_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/demvof/preparation/rough_floor.hpp"
+#include "solver/scene/case_error.hpp"
+
+namespace demvof {
+
+namespace {
+
+using granvof::Scene;
+using granvof::SideKind;
+using granvof::WallKind;
+
+constexpr double loosest_pile = 0.55;  // below it a bed cannot be at rest: it is suspended [-]
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& why) {
+  throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}", scene.file.string(), why));
+}
+
+bool flat(const Scene& scene) { return scene.dimensions == 2; }
+
+std::array<int, 3> reference_cells(const Scene& scene) {
+  std::array<int, 3> cells{1, 1, 1};
+  for (std::size_t d = 0; d < (flat(scene) ? 2U : 3U); ++d) {
+    cells[d] = std::max(1, static_cast<int>(std::lround(scene.tank[d] / scene.reference->cell)));
+  }
+  return cells;
+}
+
+FluidSide fluid_side(const granvof::Side& side) {
+  if (side.kind == SideKind::open) return FluidSide::open;
+  return side.fluid.kind == WallKind::slip ? FluidSide::slip : FluidSide::no_slip;
+}
+
+bool slippery_for_beads(const Scene& scene) {
+  return scene.sides[granvof::left].solid.kind == WallKind::slip &&
+         scene.sides[granvof::bottom].solid.kind == WallKind::slip;
+}
+
+ContactLaw run_law(const Scene& scene) {
+  const granvof::ReferenceSettings& r = *scene.reference;
+  ContactLaw law;
+  law.young = r.young;
+  law.poisson = r.poisson;
+  law.restitution = r.bead_restitution;
+  law.bead_friction = r.bead_friction;
+  law.rolling_friction = r.bead_rolling_friction;
+  law.wall_friction = slippery_for_beads(scene) ? 0.0 : r.wall_friction;
+  return law;
+}
+
+// Share of [from, to] inside [lower, upper].
+double overlap(double from, double to, double lower, double upper) {
+  return std::max(0.0, std::min(to, upper) - std::max(from, lower)) / (to - from);
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+  if (!scene.reference) refuse(scene, "it has no [reference] table");
+  if (!scene.bed) refuse(scene, "it has no [bed]");
+  if (scene.bed->slope != 90.0) refuse(scene, fmt::format("bed.slope is {}, allowed: 90", scene.bed->slope));
+  const std::size_t sides = flat(scene) ? 4 : 6;
+  for (std::size_t s = 0; s < sides; ++s) {
+    if (scene.sides[s].kind == SideKind::periodic) refuse(scene, "a wall is periodic, allowed: no-slip, slip, open");
+    for (const double v : scene.sides[s].velocity) {
+      if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
+    }
+  }
+  if (scene.gate) {
+    const double faces = scene.gate->position / (scene.tank[0] / reference_cells(scene)[0]);
+    if (std::abs(faces - std::round(faces)) > 1e-6) {
+      refuse(scene, fmt::format("the gate at {} m does not lie on a face of the fluid cells; choose reference.cell so "
+                                "that it does",
+                                scene.gate->position));
+    }
+  }
+  if (scene.reference->young < 5e6) {
+    refuse(scene, fmt::format("reference.young is {}, allowed: >= 5e6 Pa", scene.reference->young));
+  }
+}
+
+double depth_of(const Scene& scene) { return flat(scene) ? scene.reference->slice_depth : scene.tank[2]; }
+
+FluidSettings fluid_settings(const Scene& scene, const std::string& scratch) {
+  FluidSettings f;
+  f.cells = reference_cells(scene);
+  f.spacing = {scene.tank[0] / f.cells[0], scene.tank[1] / f.cells[1], depth_of(scene) / f.cells[2]};
+  f.gravity = scene.gravity;
+  f.gas_density = scene.gas.density;
+  f.gas_viscosity = scene.gas.viscosity;
+  f.liquid_density = scene.liquid.density;
+  f.liquid_viscosity = scene.liquid.viscosity;
+  f.large_eddy = scene.model.les;
+  for (std::size_t s = 0; s < 6; ++s) {
+    f.sides[s] = flat(scene) && s >= 4 ? FluidSide::empty : fluid_side(scene.sides[s]);
+  }
+  f.scratch_folder = scratch;
+  return f;
+}
+
+BeadSettings bead_settings(const Scene& scene, const std::string& scratch) {
+  BeadSettings b;
+  b.tank = {scene.tank[0], scene.tank[1], depth_of(scene)};
+  b.periodic_depth = flat(scene);
+  b.diameter = scene.solid.diameter;
+  b.density = scene.solid.density;
+  b.law = run_law(scene);
+  b.dt = scene.reference->dt;
+  b.gravity = scene.gravity;
+  if (scene.gate) {
+    b.gate = scene.gate->position;
+    b.gate_height = scene.bed->box.upper[1] + 4.0 * b.diameter;
+  }
+  b.scratch_folder = scratch;
+  return b;
+}
+
+ColumnSettings column_settings(const Scene& scene, unsigned seed, const std::vector<double>& floor,
+                               const std::string& scratch) {
+  const granvof::ReferenceSettings& r = *scene.reference;
+  ColumnSettings c;
+  c.lower = scene.bed->box.lower;
+  c.upper = scene.bed->box.upper;
+  c.periodic_depth = flat(scene);
+  if (flat(scene)) {
+    c.lower[2] = 0.0;
+    c.upper[2] = depth_of(scene);
+  }
+  c.packing = r.packing;
+  c.suspended = r.packing < loosest_pile;
+  c.diameter = scene.solid.diameter;
+  c.density = scene.solid.density;
+  const double lighter = scene.liquid.density / scene.solid.density;
+  // Floating beads are packed under their own weight's size of buoyancy; only its size matters.
+  c.buoyant_gravity = scene.gravity * std::max(0.1, std::abs(1.0 - lighter));
+  c.final_law = c.preparation_law = run_law(scene);
+  c.preparation_law.bead_friction = r.preparation_friction;
+  c.preparation_law.rolling_friction = r.preparation_rolling_friction;
+  c.dt = r.dt;
+  c.floor = floor;
+  c.seed = seed;
+  c.scratch_folder = scratch;
+  return c;
+}
+
+std::vector<double> floor_beads(const Scene& scene, unsigned seed) {
+  const bool on_floor = scene.bed->box.lower[1] < scene.solid.diameter;
+  if (scene.reference->floor != granvof::ReferenceFloor::rough || !on_floor) return {};
+  return rough_floor({scene.tank[0], depth_of(scene), flat(scene)}, scene.solid.diameter, seed);
+}
+
+std::vector<double> initial_alpha(const Scene& scene, const FluidSettings& fluid) {
+  const auto [nx, ny, nz] = fluid.cells;
+  std::vector<double> alpha;
+  alpha.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz));
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
+        double share = 0.0;
+        for (const granvof::Box& box : scene.liquid_boxes) {
+          double inside = overlap(i * fluid.spacing[0], (i + 1) * fluid.spacing[0], box.lower[0], box.upper[0]) *
+                          overlap(j * fluid.spacing[1], (j + 1) * fluid.spacing[1], box.lower[1], box.upper[1]);
+          if (!flat(scene)) {
+            inside *= overlap(k * fluid.spacing[2], (k + 1) * fluid.spacing[2], box.lower[2], box.upper[2]);
+          }
+          share = std::max(share, inside);
+        }
+        alpha.push_back(share);
+      }
+    }
+  }
+  return alpha;
+}
+
+Scene with_reference_grid(const Scene& scene) {
+  Scene changed = scene;
+  changed.grid.cells = reference_cells(scene);
+  for (std::size_t d = 0; d < 3; ++d) changed.grid.spacing[d] = scene.tank[d] / changed.grid.cells[d];
+  return changed;
+}
+
+}  // namespace demvof

@@ -1,0 +1,29 @@
+// From a Scene to what the two sides of demvof need.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/demvof/coupling/coupled_run.hpp"
+#include "reference/demvof/preparation/column.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace demvof {
+
+// Throws granvof::CaseError, naming the key, for what demvof does not compute: a scene without a bed, periodic or
+// moving walls, a sloping bed, walls that only beads feel as Coulomb walls.
+void check_scene(const granvof::Scene& scene);
+
+double depth_of(const granvof::Scene& scene);  // of the slice, or of the tank in 3D [m]
+FluidSettings fluid_settings(const granvof::Scene& scene, const std::string& scratch);
+BeadSettings bead_settings(const granvof::Scene& scene, const std::string& scratch);
+ColumnSettings column_settings(const granvof::Scene& scene, unsigned seed, const std::vector<double>& floor,
+                               const std::string& scratch);
+// Frozen beads of the rough floor; none for a smooth one, or where the bed does not stand on the floor.
+std::vector<double> floor_beads(const granvof::Scene& scene, unsigned seed);
+// Liquid share of each cell at the start [-].
+std::vector<double> initial_alpha(const granvof::Scene& scene, const FluidSettings& fluid);
+// The scene with demvof's grid in place of the solver's, for the output.
+granvof::Scene with_reference_grid(const granvof::Scene& scene);
+
+}  // namespace demvof

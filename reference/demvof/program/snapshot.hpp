@@ -1,0 +1,28 @@
+// Fields and scalars of one instant of a coupled run, in the project's output form.
+#pragma once
+
+#include <optional>
+
+#include "reference/demvof/coupling/coupled_run.hpp"
+#include "solver/output/cell_fields.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace demvof {
+
+// f_s, u_s and granular temperature from the beads by the mapping of the coupling; `scene` with demvof's grid,
+// `time` since the release [s]. Theta = <|v - u_s|^2> / 3, about the mean velocity of the cell.
+granvof::CellFields snapshot(const CoupledRun& run, const granvof::Scene& scene, double time);
+
+// x left of which 99.5 % of the beads have their centres [m].
+double bead_front(const BeadState& beads);
+double bead_rms_speed(const BeadState& beads);  // [m/s]
+// Height below which 99.5 % of the beads' upper edges lie [m].
+double bed_top(const BeadState& beads, double diameter);
+// Mean |u_x| of the beads whose centre lies within 1 d of the floor, over that of the beads between 1 and 2 d; how
+// far the floor lets the lowest layer slide. None where either layer rests. [-]
+std::optional<double> floor_slip(const BeadState& beads, double diameter);
+// Pressure along the floor cells under the bed's initial length, in excess of the liquid's own weight
+// rho_l g (level - y) [Pa].
+double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene);
+
+}  // namespace demvof
