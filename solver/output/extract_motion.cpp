@@ -47,11 +47,14 @@ double kinetic_energy(const CellFields& fields, const Scene& scene, Share share,
 }
 
 double potential_energy(const CellFields& fields, const Scene& scene, Share share, double density) {
-  const auto nx = static_cast<std::size_t>(fields.cells[0]);
-  const auto ny = static_cast<std::size_t>(fields.cells[1]);
-  double sum = 0.0;
-  for (std::size_t c = 0; c < fields.f_s.size(); ++c) {
-    sum += share(fields, c) * (static_cast<double>(c / nx % ny) + 0.5);
+  double sum = 0.0;  // of share times height in cells
+  std::size_t c = 0;
+  for (int k = 0; k < fields.cells[2]; ++k) {
+    for (int j = 0; j < fields.cells[1]; ++j) {
+      double row = 0.0;
+      for (int i = 0; i < fields.cells[0]; ++i) row += share(fields, c++);
+      sum += row * (j + 0.5);
+    }
   }
   return density * scene.gravity * sum * fields.spacing[1] * cell_volume(fields, scene);
 }

@@ -45,6 +45,8 @@ class QuietErrors {
   ~QuietErrors();
   QuietErrors(const QuietErrors&) = delete;
   QuietErrors& operator=(const QuietErrors&) = delete;
+  QuietErrors(QuietErrors&&) = delete;
+  QuietErrors& operator=(QuietErrors&&) = delete;
 
  private:
   H5E_auto2_t function_ = nullptr;
@@ -81,7 +83,7 @@ std::string read_string_attribute(hid_t object, const std::string& name);
 // float32, chunks of one layer of the first dimension, shuffled and compressed by gzip.
 void write_compressed(hid_t group, const std::string& name, std::span<const hsize_t> shape,
                       std::span<const float> values);
-// float64, one-dimensional, as it is in memory, with a checksum (HDF5's Fletcher-32) unless empty.
+// float64, one-dimensional, as it is in memory.
 void write_doubles(hid_t group, const std::string& name, std::span<const double> values);
 // All values of a dataset of any shape, as double.
 std::vector<double> read_doubles(hid_t group, const std::string& name);

@@ -76,9 +76,9 @@ std::vector<double> bed_height_profile(const CellFields& fields, const Scene& sc
 std::vector<double> share_under_bed(const CellFields& fields, const Scene& scene, int direction) {
   const auto d = static_cast<std::size_t>(direction);
   const auto n = static_cast<std::size_t>(fields.cells[d]);
-  std::vector<double> share(n, 0.0);
-  if (!scene.bed) return share;
-  if (d == 2 && scene.dimensions == 2) return std::vector<double>(n, 1.0);
+  const bool all_under = d == 2 && scene.dimensions == 2 && scene.bed;
+  std::vector<double> share(n, all_under ? 1.0 : 0.0);
+  if (all_under || !scene.bed) return share;
   const double h = fields.spacing[d];
   for (std::size_t c = 0; c < n; ++c) {
     const double lower = std::max(static_cast<double>(c) * h, scene.bed->box.lower[d]);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <stdexcept>
 #include <system_error>
 
@@ -46,20 +47,20 @@ std::vector<Column> series_columns(std::span<const Column> monitors) {
   return columns;
 }
 
-RunWriter::RunWriter(fs::path directory, const Scene& scene, const RunStart& start,
-                     std::vector<Column> monitors, std::optional<double> resume_time)
+RunWriter::RunWriter(fs::path directory, Scene scene, RunStart start, std::span<const Column> monitors,
+                     std::optional<double> resume_time)
     : directory_(std::move(directory)),
-      scene_(scene),
-      record_{start, iso_date_now(), {}},
+      scene_(std::move(scene)),
+      record_{std::move(start), iso_date_now(), {}},
       columns_(series_columns(monitors)),
       resume_time_(resume_time) {}
 
 RunWriter RunWriter::fresh(const fs::path& directory, const Scene& scene, const RunStart& start,
-                           std::vector<Column> monitors) {
+                           std::span<const Column> monitors) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw OutputError("create", directory, error.message());
-  RunWriter writer(directory, scene, start, std::move(monitors), std::nullopt);
+  RunWriter writer(directory, scene, start, monitors, std::nullopt);
   writer.lock_ = lock_directory(directory);
   if (!fs::is_empty(directory) && !read_existing_run(directory / record_name)) {
     throw OutputError("write to", directory,
@@ -69,8 +70,8 @@ RunWriter RunWriter::fresh(const fs::path& directory, const Scene& scene, const 
 }
 
 RunWriter RunWriter::resume(const fs::path& directory, const Scene& scene, const RunStart& start,
-                            std::vector<Column> monitors, double time) {
-  RunWriter writer(directory, scene, start, std::move(monitors), time);
+                            std::span<const Column> monitors, double time) {
+  RunWriter writer(directory, scene, start, monitors, time);
   writer.lock_ = lock_directory(directory);
   const auto existing = read_existing_run(directory / record_name);
   if (!existing) throw OutputError("resume", directory, "it holds no run of granvof");
@@ -102,6 +103,7 @@ void RunWriter::start_fresh() {
   // directory whose replacement was cut short is still known as a run.
   const auto record = directory_ / record_name;
   RunProgress nothing;
+  nothing.cells = std::int64_t{1} * scene_.grid.cells[0] * scene_.grid.cells[1] * scene_.grid.cells[2];
   write_beside(record, run_record_text(scene_, record_, nothing, {}));
   for (const char* name : owned_names) {
     std::error_code error;

@@ -27,12 +27,12 @@ class RunWriter {
   // extract.hpp. Throws OutputError if `directory` cannot be made or written, is in use by another run, or
   // holds files but no run.
   static RunWriter fresh(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
-                         std::vector<Column> monitors);
+                         std::span<const Column> monitors);
   // The run of `directory` continued from a checkpoint of time `time` [s]: later rows and instants are
   // removed. Throws OutputError also if the directory holds a run of another case or program. A row and an
   // instant due at the time of a checkpoint must be written before it.
   static RunWriter resume(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
-                          std::vector<Column> monitors, double time);
+                          std::span<const Column> monitors, double time);
 
   // A row of series.csv; `monitors` in the order of the columns given at the start.
   void write_series_row(double time, std::span<const Value> monitors, const Scalars& scalars);
@@ -40,7 +40,8 @@ class RunWriter {
   void write_fields(const CellFields& fields);
   // series.csv flushed, checkpoint.h5 replaced, run.json brought up to date.
   void write_checkpoint(const CheckpointView& state, const RunProgress& progress);
-  // run.json alone.
+  // run.json alone, state "running". A fresh run's first write makes it by itself; a resumed run calls this
+  // first.
   void write_progress(const RunProgress& progress);
   // The last call: fields.h5 joined if the run finished, run.json with its exit state.
   void finish(const RunProgress& progress, const RunExit& exit);
@@ -48,8 +49,8 @@ class RunWriter {
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
 
  private:
-  RunWriter(std::filesystem::path directory, const Scene& scene, const RunStart& start,
-            std::vector<Column> monitors, std::optional<double> resume_time);
+  RunWriter(std::filesystem::path directory, Scene scene, RunStart start, std::span<const Column> monitors,
+            std::optional<double> resume_time);
   void start_writing();
   void start_fresh();
   void start_resumed(double time);

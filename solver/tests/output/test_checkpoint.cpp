@@ -68,7 +68,7 @@ TEST_F(CheckpointFile, RefusesAnotherCaseAndAnotherGrid) {
 }
 
 TEST_F(CheckpointFile, RefusesMissingForeignAndDamagedFiles) {
-  EXPECT_NE(message_of<OutputError>([&] { read_checkpoint(path, scene); }).find("no such file"),
+  EXPECT_NE(message_of<OutputError>([&] { read_checkpoint(path, scene); }).find("No such file"),
             std::string::npos);
   write_file_atomically(path, "not HDF5 at all");
   EXPECT_THROW(read_checkpoint(path, scene), OutputError);
@@ -76,18 +76,13 @@ TEST_F(CheckpointFile, RefusesMissingForeignAndDamagedFiles) {
   const auto whole = read_file(path);
   write_file_atomically(path, whole.substr(0, whole.size() / 2));
   EXPECT_THROW(read_checkpoint(path, scene), OutputError);
-  // One bit wrong, in the scalar dt and in the array f_s, which both hold this number: the checksums must
-  // tell.
-  const std::string number(reinterpret_cast<const char*>(values.data()), sizeof(double));
-  int places = 0;
-  for (auto at = whole.find(number); at != std::string::npos; at = whole.find(number, at + 1)) {
+  for (std::size_t at = 0; at < whole.size(); at += 97) {  // one bit wrong, anywhere
     auto flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 1);
     write_file_atomically(path, flipped);
-    EXPECT_THROW(read_checkpoint(path, scene), OutputError);
-    ++places;
+    EXPECT_NE(message_of<OutputError>([&] { read_checkpoint(path, scene); }).find("damaged"),
+              std::string::npos);
   }
-  EXPECT_EQ(places, 2);
 }
 
 TEST_F(CheckpointFile, AFullDiskLeavesThePreviousOne) {
