@@ -77,6 +77,11 @@ Json json_curve(const Curve& curve) {
   return {{"x", curve.time}, {"y", curve.value}};
 }
 
+Curve shifted(Curve curve, double by) {
+  for (double& value : curve.value) value += by;
+  return curve;
+}
+
 Json json_curves(const Run& run) {
   Json curves = Json::object();
   const auto add = [&](const char* name, const Curve& curve) {
@@ -84,6 +89,11 @@ Json json_curves(const Run& run) {
   };
   add("run_out", run_out_curve(run));
   add("excess_base_pressure", excess_base_pressure(run));
+  if (const Curve centre = run.curve("y_c"); !centre.empty()) {
+    // The paper's mean over 3-6 s of 6 s.
+    const auto mean = time_mean(clip(centre, {0.5 * run.scene.times.end, run.scene.times.end}));
+    if (mean) add("y_c_deviation", shifted(centre, -*mean));
+  }
   for (const char* column :
        {"front_dense", "y_c", "y_solid_mean", "interface_height", "bed_height_equivalent"})
     add(column, run.curve(column));

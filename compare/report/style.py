@@ -1,0 +1,53 @@
+"""One style for all plots: fit for print, colour-blind safe, each stamped with what it was drawn from."""
+
+import textwrap
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+# Okabe & Ito's palette: told apart with any common colour vision, and in grey by their order.
+BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW, BLACK = (
+    "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#000000")
+CYCLE = [BLUE, ORANGE, GREEN, PURPLE, SKY, RED]
+MARKERS = ["o", "s", "^", "D", "v", "P"]
+LINES = ["-", "--", "-.", ":"]
+THEORY = {"color": BLACK, "linestyle": "--", "linewidth": 1.0}
+DEM = RED
+
+plt.rcParams.update({
+    "figure.dpi": 100, "savefig.dpi": 150, "figure.constrained_layout.use": True,
+    "font.size": 10, "axes.labelsize": 10, "legend.fontsize": 8.5, "legend.frameon": False,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25,
+    "axes.prop_cycle": matplotlib.cycler(color=CYCLE), "lines.linewidth": 1.6, "pdf.fonttype": 42,
+    "svg.fonttype": "none", "image.cmap": "viridis",
+})
+
+
+def stamp(figure, runs):
+    """One line of small print: version, case hashes and host of the runs a plot shows."""
+    facts = [run for run in runs if run.get("case_hash")]
+    if not facts:
+        return
+    versions = ", ".join(sorted({label_of_version(run) for run in facts}))
+    hashes = " ".join(f"{run['id']}:{run['case_hash'][:8]}" for run in facts)
+    hosts = ", ".join(sorted({run["host"] for run in facts}))
+    text = textwrap.fill(f"granvof {versions} | {hashes} | {hosts}", width=int(28 * figure.get_figwidth()))
+    figure.supxlabel(text, fontsize=5.5, color="0.45")
+
+
+def label_of_version(run):
+    version = run.get("version") or "of unknown version"
+    return f"{version} ({run['commit']})" if run.get("commit") else version
+
+
+def save(figure, directory, name):
+    """Writes <name>.png and <name>.pdf and gives the name back."""
+    directory.mkdir(parents=True, exist_ok=True)
+    for ending in ("png", "pdf"):
+        # No creation date: the same results give the same file.
+        metadata = {"CreationDate": None} if ending == "pdf" else None
+        figure.savefig(directory / f"{name}.{ending}", metadata=metadata)
+    plt.close(figure)
+    return name

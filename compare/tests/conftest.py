@@ -1,0 +1,104 @@
+"""A comparison made up from formulas, as granvof-compare would write it."""
+
+import json
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+
+def row_of(**changed):
+    row = {"id": "s1.run_out@10.DEM", "scene": "s1", "metric": "run_out@10", "value": 2.0, "unit": "-", "reference": 1.5,
+           "reference_kind": "DEM", "reference_source": "reference/results/s1", "band": 0.1, "tolerance": "0.05 [-]",
+           "verdict": "differs", "unexpected": True, "asserted": True, "frequency": "verify", "note": "", "deviation": 0.5,
+           "distance": 0.45}
+    return row | changed
+
+
+def rows_of_a_comparison():
+    rows = [row_of(),
+            row_of(id="a", scene="s2", metric="run_out@10", verdict="not run", unexpected=False, reference=None,
+                     deviation=None, distance=None, note="no record of 's2'"),
+            row_of(id="b", scene="s1", metric="core_seconds", unit="core-s", value=2.2, reference=3, verdict="agrees",
+                     unexpected=False, distance=0.0, deviation=-0.8),
+            row_of(id="c", scene="s1", metric="late <creep>", verdict="expected failure", unexpected=False,
+                     expected_failure={"reason": "no arrest & thin layers", "distance": 0.5})]
+    for ratio in (0.2, 0.4, 0.6, 0.8):
+        name = f"float-full-r{10 * ratio:02.0f}"
+        rows.append(row_of(id=f"{name}.share", scene=name, metric="immersed_share", value=ratio + 0.001, reference=ratio,
+                             verdict="agrees", unexpected=False, distance=0.0, deviation=0.001))
+        rows.append(row_of(id=f"{name}.period", scene=f"{name}-nodrag", metric="period", unit="s", value=ratio, reference=ratio,
+                             verdict="agrees", unexpected=False, distance=0.0, deviation=0.0))
+    return rows
+
+
+def make_run(name):
+    return {"id": name, "case": name, "set": [], "state": "usable", "reason": "", "version": "0.1.0", "commit": "abc1234",
+            "date": "2026-01-01T00:00:00Z", "case_hash": "0123456789abcdef", "host": "A Processor", "exit": "finished",
+            "numbers": {"cells": 96, "steps": 100, "core_seconds": 2.2, "simulated_time": 0.7, "cell_steps_per_second": 1e6}}
+
+
+def make_fields(path, phi_of_x):
+    x = (np.arange(12) + 0.5) / 12
+    f_s = np.zeros((1, 8, 12))
+    f_s[0, :4, :5] = 0.57
+    alpha = np.zeros_like(f_s)
+    alpha[0, :6] = 1.0
+    path.mkdir(parents=True, exist_ok=True)
+    with h5py.File(path / "fields.h5", "w") as file:
+        for index, time in enumerate((0.0, 0.35, 0.7)):
+            group = file.create_group(f"t{index:04}")
+            group.attrs["time"] = time
+            group["f_s"], group["alpha"], group["phi"] = f_s, alpha, np.broadcast_to(phi_of_x(x), f_s.shape)
+
+
+@pytest.fixture
+def make_row():
+    return row_of
+
+
+@pytest.fixture
+def make_rows():
+    return rows_of_a_comparison
+
+
+def make_comparison(root):
+    names = ["s1", "s2", "s1-loose"] + [f"float-full-r0{r}{kind}" for r in (2, 4, 6, 8) for kind in ("", "-nodrag")]
+    t = np.linspace(0, 6, 200)
+    curves = {}
+    for name in names:
+        if name in ("s1", "float-full-r02"):  # drawing is slow; two scenes are enough
+            make_fields(root / "runs" / name, lambda x: np.floor(4 * x) % 2)
+        scene = {"title": name, "tank": [0.12, 0.08, 0.01], "dimensions": 2, "cells": [12, 8, 1], "spacing": [0.01, 0.01, 0.01],
+                 "gravity": 9.81, "density_ratio": 0.2, "drag": True, "end": 6.0, "time_unit": 0.07, "field_times": [0, 0.7],
+                 "bed": {"lower": [0, 0, 0], "upper": [0.05, 0.04, 0], "solid_fraction": 0.57}}
+        given = {"run_out": (t, t / 3), "excess_base_pressure": (t, np.exp(-t)), "y_c_deviation": (t, np.cos(t))}
+        curves[name] = {"scene": scene, "directory": str(root / "runs" / name),
+                        "curves": {key: {"x": list(x), "y": list(y)} for key, (x, y) in given.items()}}
+    records = {"s1": {f"seed{seed}": curves["s1"] for seed in (1, 2)}}
+    directory = root / "verify"
+    directory.mkdir()
+    (directory / "results.json").write_text(json.dumps({
+        "date": "2026-01-02T00:00:00Z", "frequency": "verify", "unexpected": 1, "counts": {},
+        "runs": [make_run(name) for name in names], "results": rows_of_a_comparison()}))
+    (directory / "curves.json").write_text(json.dumps({"runs": curves, "records": records}))
+    return directory
+
+
+@pytest.fixture
+def verify_directory(tmp_path):
+    return make_comparison(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def reported(tmp_path_factory):
+    """A comparison with its report, drawn once; not to be changed."""
+    from report import report
+
+    directory = make_comparison(tmp_path_factory.mktemp("reported"))
+    assert report.main(["--verify", str(directory)]) == 0
+    return directory

@@ -1,0 +1,109 @@
+"""The report from made-up results: what it shows, and that it needs nothing but itself."""
+
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from report import figures, page, results
+
+
+def write_previous(directory, rows):
+    (directory / "results.previous.json").write_text(json.dumps({"date": "2026-01-01T00:00:00Z", "results": rows}))
+
+
+def changed_rows(directory, rows):
+    write_previous(directory, rows)
+    return {(row["id"], what) for row, _, what in results.changes(results.load(directory))}
+
+
+def test_report_writes_every_plot_as_png_and_pdf(reported):
+    plots = {path.stem for path in (reported / "plots").glob("*.png")}
+    assert plots == {"run-out", "base-pressure", "centre-height", "floating-theory", "snapshots-s1", "snapshots-float-full-r02"}
+    assert plots == {path.stem for path in (reported / "plots").glob("*.pdf")}
+    text = (reported / "report.html").read_text()
+    assert text.count("data:image/png;base64,") == len(plots)
+
+
+class Outside(HTMLParser):
+    """Collects what a page would fetch."""
+
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attributes):
+        self.found += [value for name, value in attributes
+                       if name in ("src", "href", "srcset") and not value.startswith(("data:", "#"))]
+
+
+def test_page_fetches_nothing(reported):
+    text = (reported / "report.html").read_text()
+    parser = Outside()
+    parser.feed(text)
+    assert parser.found == []
+    assert not re.search(r"url\(|@import|fetch\(", text)
+
+
+def test_page_names_failures_first_and_escapes_text(reported):
+    text = (reported / "report.html").read_text()
+    assert text.index("1 unexpected") < text.index("What changed") < text.index('id="checks"')
+    assert "late &lt;creep&gt;" in text and "late <creep>" not in text
+    assert "no arrest &amp; thin layers" in text
+    assert "no record of" in text
+
+
+def test_nothing_unexpected_is_said(verify_directory):
+    loaded = results.load(verify_directory)
+    loaded.rows = [row for row in loaded.rows if not row["unexpected"]]
+    assert "Nothing unexpected." in page.render(loaded, [])
+
+
+def test_first_comparison_has_no_changes(verify_directory):
+    loaded = results.load(verify_directory)
+    assert results.changes(loaded) == []
+    assert "No earlier comparison" in page.render(loaded, [])
+
+
+def test_same_results_are_no_change(verify_directory, make_rows):
+    assert changed_rows(verify_directory, make_rows()) == set()
+    assert "No change since 2026-01-01" in page.render(results.load(verify_directory), [])
+
+
+def test_changes_of_verdict_value_and_rows_are_found(verify_directory, make_row, make_rows):
+    before = make_rows()
+    before[0] = make_row(verdict="agrees")
+    before[4] = before[4] | {"value": before[4]["value"] * 1.01}
+    before[5] = before[5] | {"value": before[5]["value"] * 1.0005}  # below the threshold
+    before[2] = before[2] | {"value": 9.9}  # cost
+    before = [row for row in before if row["id"] != "a"] + [make_row(id="old")]
+    found = changed_rows(verify_directory, before)
+    assert {row_id for row_id, _ in found} == {"s1.run_out@10.DEM", "float-full-r02.share", "a", "old"}
+    assert ("s1.run_out@10.DEM", "agrees → differs") in found
+    assert ("a", "new") in found and ("old", "gone") in found
+
+
+def test_rounding_noise_of_a_conserved_volume_is_no_change(verify_directory, make_row):
+    noise = make_row(id="v", metric="solid_volume_error", value=1e-15, reference=0, verdict="agrees", distance=0.0, unexpected=False)
+    loaded = results.load(verify_directory)
+    loaded.rows, loaded.previous = [noise], {"v": noise | {"value": 7e-16}}
+    assert results.changes(loaded) == []
+
+
+def test_a_plot_without_its_runs_is_left_out(verify_directory, tmp_path):
+    loaded = results.load(verify_directory)
+    loaded.curves, loaded.rows = {}, []
+    assert figures.draw_all(loaded, tmp_path / "plots") == []
+
+
+def test_the_run_out_curve_breaks_where_its_definition_changes():
+    x, y = figures.with_gap(np.array([7.0, 8.0, 9.0]), np.array([1.0, 2.0, 3.0]), 8.0)
+    assert np.isnan(y).tolist() == [False, False, True, False]
+    assert figures.with_gap(np.array([1.0, 2.0]), np.array([1.0, 2.0]), 8.0)[1].tolist() == [1.0, 2.0]
+
+
+@pytest.mark.parametrize("value, text", [(None, "–"), (1.23456, "1.235"), (1e-12, "1e-12")])
+def test_numbers(value, text):
+    assert page.number(value) == text

@@ -1,0 +1,75 @@
+"""compare/verify with programs that stand in for granvof and granvof-compare."""
+
+import importlib.machinery
+import importlib.util
+import stat
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parent.parent / "verify"
+
+
+@pytest.fixture
+def verify(monkeypatch):
+    loader = importlib.machinery.SourceFileLoader("verify_script", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("verify_script", loader))
+    loader.exec_module(module)
+    monkeypatch.setattr(module, "make_report", lambda out: 0)
+    monkeypatch.setattr(module, "run_canary", lambda build_dir, out: 0)
+    return module
+
+
+def program(path, body):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("#!/bin/sh\n" + body)
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+def stand_ins(build, check_code=0, solver="exit 0"):
+    program(build / "compare/granvof-compare",
+            'if [ "$1" = plan ]; then printf "a\\ts1\\nb\\ts1\\tgrid.dx=0.005\\tmodel.drag=false\\n"; exit 0; fi\n'
+            f'exit {check_code}\n')
+    program(build / "solver/granvof", f'echo "$@" >> "{build}/calls"\n{solver}\n')
+    return ["--build-dir", str(build), "--out", str(build / "out"), "--jobs", "2"]
+
+
+def test_runs_what_the_plan_says(verify, tmp_path, capsys):
+    assert verify.main(stand_ins(tmp_path)) == 0
+    calls = sorted((tmp_path / "calls").read_text().splitlines())
+    assert len(calls) == 2
+    assert "cases/s1.toml" in calls[0] and calls[0].endswith("out/runs/a --threads 1")
+    assert calls[1].endswith("out/runs/b --threads 1 --set grid.dx=0.005 --set model.drag=false")
+    printed = capsys.readouterr().out
+    assert "a " in printed and "done" in printed
+
+
+def test_a_failed_run_is_named_with_its_reason(verify, tmp_path, capsys):
+    arguments = stand_ins(tmp_path, solver='echo "step collapse at t = 0.1 s" >&2; exit 1')
+    assert verify.main(arguments) == 1
+    printed = capsys.readouterr()
+    assert "FAILED, exit code 1: step collapse at t = 0.1 s" in printed.out
+    assert "runs that failed: " in printed.err
+
+
+def test_an_unexpected_verdict_is_the_exit_code(verify, tmp_path):
+    assert verify.main(stand_ins(tmp_path, check_code=1)) == 1
+
+
+def test_bad_input_is_two(verify, tmp_path):
+    assert verify.main(stand_ins(tmp_path, check_code=2)) == 2
+
+
+def test_a_run_that_hangs_is_stopped(verify, tmp_path, capsys):
+    assert verify.main(stand_ins(tmp_path, solver="exec sleep 60") + ["--timeout", "0.3"]) == 1
+    assert "stopped after 0.3 s" in capsys.readouterr().out
+
+
+def test_a_missing_program_is_named(verify, tmp_path, capsys):
+    assert verify.main(["--build-dir", str(tmp_path), "--out", str(tmp_path / "out")]) == 2
+    assert "granvof-compare is missing" in capsys.readouterr().err
+
+
+def test_plots_alone_need_results(verify, tmp_path, capsys):
+    assert verify.main(["--out", str(tmp_path), "--plots-only"]) == 2
+    assert "no results" in capsys.readouterr().err
