@@ -39,7 +39,9 @@ std::string version_text() {
 }
 
 std::string command_line(int argc, char** argv) {
-  return fmt::format("{}", fmt::join(std::vector<std::string>(argv, argv + argc), " "));
+  std::string line = argv[0];
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
 }
 
 int run(Arguments& arguments) {
@@ -52,7 +54,8 @@ int run(Arguments& arguments) {
 
 int check(const Arguments& arguments) {
   const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
-  fmt::print("# {}: {} cells, {:.6g} s; physics {}\n\n{}", scene.name, fmt::join(scene.grid.cells, " x "),
+  const auto& cells = scene.grid.cells;
+  fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n\n{}", scene.name, cells[0], cells[1], cells[2],
              scene.times.end, scene.hash, scene.resolved);
   return 0;
 }
@@ -62,14 +65,21 @@ int keys() {
   return 0;
 }
 
+// One line; a misspelt subcommand is named, where the library only says that one is required.
+std::string failure_text(const CLI::App* app, const CLI::Error& error) {
+  const std::vector<std::string> left = app->remaining();
+  const bool misspelt = app->get_subcommands().empty() && !left.empty();
+  return fmt::format(
+      "granvof: {} (granvof --help says what is allowed)\n",
+      misspelt ? fmt::format("got {}, allowed: run, check, keys", left.front()) : error.what());
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"A continuum solver for gas-liquid-solid flow."};
   app.name("granvof");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("granvof: {} (granvof --help says what is allowed)\n", error.what());
-  });
+  app.failure_message(failure_text);
 
   Arguments arguments;
   arguments.run.command = command_line(argc, argv);

@@ -110,7 +110,7 @@ class Completion {
     for (int side = 0; side < side_all; ++side) {
       if (s_.sides[side].kind == SideKind::periodic && s_.sides[side ^ 1].kind != SideKind::periodic) {
         refuse("walls." + std::string(side_names[side]),
-               fmt::format("\"periodic\" only together with walls.{} = \"periodic\"", side_names[side ^ 1]));
+               fmt::format(R"("periodic" only together with walls.{} = "periodic")", side_names[side ^ 1]));
       }
     }
   }
@@ -123,7 +123,7 @@ class Completion {
         only_in_3d(name + part);
     }
     if (input.word == SideWord::open && side != top) {
-      refuse(name, "\"no-slip\" | \"slip\" | \"periodic\"; only walls.top may be open");
+      refuse(name, R"("no-slip" | "slip" | "periodic"; only walls.top may be open)");
     }
     const bool coulomb = input.solid == WallKind::coulomb;
     if (coulomb && !input.solid_friction) {
@@ -269,7 +269,7 @@ class Completion {
     TimesInput& t = d_.times;
     if (t.unit == TimeUnit::column) {
       if (!has("bed") || s_.gravity == 0.0) {
-        refuse("time.unit", "\"s\"; \"column\" needs a [bed] and gravity");
+        refuse("time.unit", R"("s"; "column" needs a [bed] and gravity)");
       }
       s_.times.unit = std::sqrt(d_.bed.height / s_.gravity);
     }

@@ -24,7 +24,7 @@ std::string resolved_text(const Draft& draft);
 std::string hash_of(const Draft& draft, const std::vector<Scope>& scopes);
 
 // Refuses the value of a key: throws CaseError with its place, its value and what is allowed.
-[[noreturn]] void refuse(const CaseText& text, const Draft& draft, const std::string& key,
+[[noreturn]] void refuse(const CaseText& text, const Draft& draft, const std::string& name,
                          const std::string& allowed);
 
 }  // namespace granvof::case_file

@@ -2,7 +2,16 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace granvof::case_file {
+
+std::string Range::text() const {
+  if (std::isinf(lower) && std::isinf(upper)) return "";
+  if (std::isinf(upper)) return fmt::format(" {} {}", lower_open ? ">" : ">=", lower);
+  if (std::isinf(lower)) return fmt::format(" {} {}", upper_open ? "<" : "<=", upper);
+  return fmt::format(" in {}{}, {}{}", lower_open ? '(' : '[', lower, upper, upper_open ? ')' : ']');
+}
 
 double as_number(const Value& value) {
   if (const auto* i = std::get_if<std::int64_t>(&value)) return static_cast<double>(*i);

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "solver/scene/keys.hpp"
 #include "solver/scene/toml_text.hpp"
 
@@ -24,12 +22,7 @@ struct Range {
   bool holds(double x) const {
     return std::isfinite(x) && (lower_open ? x > lower : x >= lower) && (upper_open ? x < upper : x <= upper);
   }
-  std::string text() const {
-    if (std::isinf(lower) && std::isinf(upper)) return "";
-    if (std::isinf(upper)) return fmt::format(" {} {}", lower_open ? ">" : ">=", lower);
-    if (std::isinf(lower)) return fmt::format(" {} {}", upper_open ? "<" : "<=", upper);
-    return fmt::format(" in {}{}, {}{}", lower_open ? '(' : '[', lower, upper, upper_open ? ')' : ']');
-  }
+  std::string text() const;  // " >= 0", " in (0, 0.9]", or nothing
 };
 
 inline constexpr Range any{};
@@ -134,9 +127,9 @@ inline Key scoped(Key k, Scope scope) {
 
 template <class Enum>
 std::string word_list(const Words<Enum>& words) {
-  std::vector<std::string> quoted;
-  for (const auto& [word, value] : words) quoted.push_back('"' + word + '"');
-  return fmt::format("{}", fmt::join(quoted, " | "));
+  std::string list;
+  for (const auto& [word, value] : words) list += (list.empty() ? "\"" : " | \"") + word + '"';
+  return list;
 }
 
 template <class Enum>

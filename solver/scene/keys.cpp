@@ -12,10 +12,12 @@ namespace {
 
 // The member of a Draft that a key fills. A function cannot name a member of a member; this keeps a row on a
 // line.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define MEMBER(path)         \
   [](auto& draft) -> auto& { \
     return draft.path;       \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 std::vector<Key> scene_keys() {
   return {
@@ -217,10 +219,10 @@ std::vector<Key> reference_keys() {
              "Covered with frozen beads, or a plane."),
       otherwise(choice("reference.release", releases, MEMBER(reference.release),
                        "At t = 0 the gate rises at gate.speed, or is gone."),
-                "\"gate\" with a [gate], else \"instant\""),
+                R"("gate" with a [gate], else "instant")"),
       otherwise(key("reference.hold", "s", not_negative, MEMBER(reference.hold),
                     "Behind the closed gate under the final contact law, before t = 0."),
-                fmt::format("{} with a [gate], else 0", ReferenceSettings{}.hold)),
+                toml_text(ReferenceSettings{}.hold) + " with a [gate], else 0"),
       key("reference.young", "Pa", positive, MEMBER(reference.settings.young),
           "Young's modulus of the beads."),
       key("reference.poisson", "-", poisson, MEMBER(reference.settings.poisson),

@@ -9,12 +9,16 @@
 namespace granvof::case_file {
 namespace {
 
+void append(std::string& list, const std::string& name) {
+  list += (list.empty() ? "" : ", ") + name;
+}
+
 std::string keys_of(const std::string& table) {
-  std::vector<std::string> names;
+  std::string names;
   for (const Key& key : keys()) {
-    if (key.documented && key.table() == table) names.push_back(key.name.substr(table.size() + 1));
+    if (key.documented && key.table() == table) append(names, key.name.substr(table.size() + 1));
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 [[noreturn]] void refuse_unknown(const std::string& path, const Entry& entry) {
@@ -32,9 +36,9 @@ std::string keys_of(const std::string& table) {
   } else if (known) {
     help = fmt::format("allowed in [{}]: {}", table, keys_of(table));
   } else {
-    std::vector<std::string> names;
-    for (const Table& t : tables()) names.push_back(t.name);
-    help = fmt::format("allowed tables: {}", fmt::join(names, ", "));
+    std::string names;
+    for (const Table& t : tables()) append(names, t.name);
+    help = "allowed tables: " + names;
   }
   throw CaseError(fmt::format("{}: {}: unknown key (got {}), {}", entry.where, path, entry.shown, help));
 }

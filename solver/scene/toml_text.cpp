@@ -1,6 +1,12 @@
 #include "solver/scene/toml_text.hpp"
 
+#include <fmt/format.h>
+
 namespace granvof::case_file {
+
+std::string toml_text(double x) {
+  return fmt::format("{}", x == 0.0 ? 0.0 : x);
+}  // never -0
 
 std::string toml_text(const std::string& s) {
   std::string text = "\"";

@@ -4,18 +4,14 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 namespace granvof::case_file {
 
 inline std::string toml_text(bool b) {
   return b ? "true" : "false";
 }
-inline std::string toml_text(double x) {
-  return fmt::format("{}", x == 0.0 ? 0.0 : x);
-}  // never -0
+std::string toml_text(double x);
 inline std::string toml_text(int i) {
-  return fmt::format("{}", i);
+  return std::to_string(i);
 }
 std::string toml_text(const std::string& s);
 
