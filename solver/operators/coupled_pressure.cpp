@@ -277,7 +277,7 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
     report.mismatch = move_points(dt, law, p_s);
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
-    if (r.converged && report.mismatch <= numerics.volume_tolerance) {
+    if (report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance) {
       report.converged = true;
       break;
     }

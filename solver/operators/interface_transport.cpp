@@ -115,13 +115,16 @@ void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
   }
 }
 
-double InterfaceTransport::substep(double dt, const Field& f_c_end, const FaceField& flux_c, Field& alpha,
-                                   Field& f_c) {
+double InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c,
+                                   Field& f_c_end) {
   boundary_.fill_scalar(alpha, 0.0);
   interface_normal(alpha);
   double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c.data();
-  const double* fc_end = f_c_end.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] = a[c] * fc[c]; });
+  double* fc_end = f_c_end.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    fl[c] = a[c] * fc[c];
+    fc_end[c] = fc[c];
+  });
   for (int d = 0; d < grid_.dim; ++d) {
     face_alpha(d, alpha, flux_c);
     const double* q = flux_c[d].data();
@@ -131,6 +134,9 @@ double InterfaceTransport::substep(double dt, const Field& f_c_end, const FaceFi
       const double ahead = q[c + s] * (q[c + s] > 0.0 ? a[c] : a[c + s]);
       const double behind = q[c] * (q[c] > 0.0 ? a[c - s] : a[c]);
       fl[c] -= dt_h * (ahead - behind);
+      // What the fluxes leave, not 1 - f_s: the two differ by the continuity residual, and only with the
+      // former is alpha bounded without clipping, which would lose the residual of every full cell.
+      fc_end[c] -= dt_h * (q[c + s] - q[c]);
     });
   }
   limit_corrections(dt, f_c_end);
@@ -151,27 +157,21 @@ double InterfaceTransport::substep(double dt, const Field& f_c_end, const FaceFi
     for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] -= dt_h * (q[c + s] - q[c]); });
   }
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    // what is clipped is the continuity residual times alpha: the liquid volume error that run.json states
-    a[c] = std::clamp(fl[c] / fc_end[c], 0.0, 1.0);
+    a[c] = std::clamp(fl[c] / fc_end[c], 0.0, 1.0);  // within bounds already but for rounding
     fc[c] = fc_end[c];
   });
   return left;
 }
 
-double InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s, const Field& f_s_new,
-                                   const FaceField& flux_c, Field& alpha_new) {
+double InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
+                                   Field& alpha_new) {
   const int parts = substeps(dt, alpha, f_s, flux_c);
   alpha_new = alpha;
-  const double *f = f_s.data(), *f_new = f_s_new.data();
-  double *fc = f_c_.data(), *fc_end = f_c_end_.data();
+  const double* f = f_s.data();
+  double* fc = f_c_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
   double left = 0.0;
-  for (int part = 1; part <= parts; ++part) {
-    const double share = static_cast<double>(part) / parts;
-    for_each(grid_.cells,
-             [=](std::ptrdiff_t c) { fc_end[c] = 1.0 - ((1.0 - share) * f[c] + share * f_new[c]); });
-    left += substep(dt / parts, f_c_end_, flux_c, alpha_new, f_c_);
-  }
+  for (int part = 0; part < parts; ++part) left += substep(dt / parts, flux_c, alpha_new, f_c_, f_c_end_);
   return left;
 }
 

@@ -14,17 +14,16 @@ class InterfaceTransport {
  public:
   InterfaceTransport(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
-  // In: alpha and f_s of the old level (two ghost layers filled), f_s of the new level, flux_c [m/s].
-  // Out: alpha of the new level. Returns the liquid volume [m3] that left through the open top.
-  double advance(double dt, const Field& alpha, const Field& f_s, const Field& f_s_new,
-                 const FaceField& flux_c, Field& alpha_new);
+  // In: alpha and f_s of the old level (two ghost layers filled), flux_c [m/s]. Out: alpha of the new level.
+  // Returns the liquid volume [m3] that left through the open top.
+  double advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new);
 
  private:
   int substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c);
   void interface_normal(const Field& alpha);
   void face_alpha(int d, const Field& alpha, const FaceField& flux_c);
   void limit_corrections(double dt, const Field& f_c_end);
-  double substep(double dt, const Field& f_c_end, const FaceField& flux_c, Field& alpha, Field& f_c);
+  double substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c, Field& f_c_end);
 
   const Grid& grid_;
   const Scene& scene_;

@@ -1,6 +1,8 @@
 #include "solver/run/state.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "solver/operators/mixture.hpp"
 
@@ -14,6 +16,23 @@ double overlap(const Grid& grid, const Box& box, const std::array<int, 3>& cell)
     const double lower = cell[d] * grid.h[d], upper = lower + grid.h[d];
     share *=
         std::clamp((std::min(upper, box.upper[d]) - std::max(lower, box.lower[d])) / grid.h[d], 0.0, 1.0);
+  }
+  return share;
+}
+
+// The same for the bed, whose front face may slope: the cell is cut into thin columns.
+double overlap(const Grid& grid, const Bed& bed, const std::array<int, 3>& cell) {
+  constexpr int columns = 16;
+  if (bed.slope >= 90.0) return overlap(grid, bed.box, cell);
+  const double rise = std::tan(bed.slope * std::numbers::pi / 180.0);
+  double share = 0.0;
+  for (int i = 0; i < columns; ++i) {
+    const double x = (cell[0] + (i + 0.5) / columns) * grid.h[0];
+    Box part = bed.box;
+    part.upper[1] = std::min(part.upper[1], part.lower[1] + std::max(bed.box.upper[0] - x, 0.0) * rise);
+    part.lower[0] = std::max(part.lower[0], (cell[0] + double(i) / columns) * grid.h[0]);
+    part.upper[0] = std::min(part.upper[0], (cell[0] + double(i + 1) / columns) * grid.h[0]);
+    if (part.upper[1] > part.lower[1] && part.upper[0] > part.lower[0]) share += overlap(grid, part, cell);
   }
   return share;
 }
@@ -53,10 +72,10 @@ void State::fill_ghosts(const Boundary& boundary) {
 
 State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary) {
   State s(grid);
-  s.time = -scene.times.hold;
+  s.time = 0.0 - scene.times.hold;  // 0, not -0, without a hold
   for_cells(grid, [&](const std::array<int, 3>& cell, std::ptrdiff_t c) {
     if (scene.bed) {
-      const double share = overlap(grid, scene.bed->box, cell);
+      const double share = overlap(grid, *scene.bed, cell);
       s.f_s[c] = scene.bed->solid_fraction * share;
       s.phi[c] = share > 0.0 ? 1.0 : 0.0;
     }

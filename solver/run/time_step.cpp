@@ -71,7 +71,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next) {
   }
   cost_.time("transport", [&] {
     if (scene_.model.colour) transport_colour(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
-    report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, next.f_s, flux_c_, next.alpha);
+    report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
     boundary_.fill_scalar(next.f_s, 0.0);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
