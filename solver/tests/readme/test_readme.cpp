@@ -1,0 +1,24 @@
+// The README's table of the columns of series.csv is the one the code writes.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "solver/output/extract.hpp"
+
+namespace granvof {
+namespace {
+
+TEST(Readme, ListsTheColumnsOfTheSeries) {
+  const auto path = std::filesystem::path(GRANVOF_CASES_DIR).parent_path() / "README.md";
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string table = scalar_table_markdown();
+  EXPECT_NE(text.str().find(table), std::string::npos) << "README.md should hold this table:\n" << table;
+}
+
+}  // namespace
+}  // namespace granvof
