@@ -35,6 +35,22 @@ std::string first_difference(const std::string& before, const std::string& now) 
 
 }  // namespace
 
+std::string_view name_of(RunState state) {
+  switch (state) {
+    case RunState::usable:
+      return "usable";
+    case RunState::missing:
+      return "missing";
+    case RunState::failed:
+      return "failed";
+    case RunState::refused:
+      return "refused";
+    case RunState::stale:
+      return "stale";
+  }
+  return "refused";
+}
+
 std::optional<double> RunFacts::number(std::string_view name) const {
   const auto found = numbers.find(std::string(name));
   if (found == numbers.end()) return std::nullopt;

@@ -46,6 +46,8 @@ enum class RunState {
   stale     // it belongs to another state of its case
 };
 
+std::string_view name_of(RunState state);
+
 struct LoadedRun {
   RunState state = RunState::missing;
   std::string reason;             // empty when usable

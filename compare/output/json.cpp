@@ -14,27 +14,11 @@ Json json_number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::string_view name_of_state(RunState state) {
-  switch (state) {
-    case RunState::usable:
-      return "usable";
-    case RunState::missing:
-      return "missing";
-    case RunState::failed:
-      return "failed";
-    case RunState::refused:
-      return "refused";
-    case RunState::stale:
-      return "stale";
-  }
-  return "refused";
-}
-
 Json json_run(const RunSummary& summary) {
   Json run{{"id", summary.plan.id},
            {"case", summary.plan.case_name},
            {"set", summary.plan.set},
-           {"state", name_of_state(summary.state)},
+           {"state", name_of(summary.state)},
            {"reason", summary.reason}};
   if (!summary.facts) return run;
   run["version"] = summary.facts->version;

@@ -69,6 +69,8 @@ std::string terminal_table(const Evaluation& evaluation) {
                         check.run, metric_label(check), short_number(result.value),
                         short_number(result.reference), result.unit, tolerance_text(check), verdict);
   }
+  for (const RunSummary& run : evaluation.runs)
+    if (run.state != RunState::usable) text += fmt::format("{}: {}\n", run.plan.id, run.reason);
   text += fmt::format("{} checks:", evaluation.results.size());
   for (const auto& [name, count] : counts) text += fmt::format(" {} {},", count, name);
   const int unexpected = evaluation.unexpected();

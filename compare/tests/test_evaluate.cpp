@@ -1,0 +1,209 @@
+// Whole rows: run directories and records on disk, to verdicts.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "compare/checks/evaluate.hpp"
+#include "compare/checks/table.hpp"
+#include "compare/output/write.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Evaluate : public testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(root_);
+    paths_ = {root_ / "runs", fs::path(GRANVOF_CASES_DIR), root_ / "records"};
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  static void write(const fs::path& file, const std::string& text) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+
+  // A front that runs from 0.1 m at `speed`, to T = 10 of s1; the last row may be replaced.
+  static std::string series(double speed, const std::string& last_row = "") {
+    std::string text = "time [s],front_dense [m],front_dilute [m],solid_volume [m3]\n";
+    for (int i = 0; i <= 10; ++i) {
+      const double t = 0.0706747 * i + (i == 10 ? 1e-6 : 0.0);
+      const double x = 0.1 + speed * t;
+      text += std::to_string(t) + "," + std::to_string(x) + "," + std::to_string(x) + ",0.002\n";
+    }
+    return text + last_row;
+  }
+
+  void write_run(const std::string& id, const std::string& series_text, const std::string& exit = "finished",
+                 const std::string& resolved_tail = "") {
+    const nlohmann::json json{
+        {"scene", "s1"},
+        {"version", "0.1.0"},
+        {"case_hash", scene_.hash},
+        {"resolved_case", scene_.resolved + resolved_tail},
+        {"solid_volume_error", 1e-15},
+        {"core_seconds", 2.5},
+        {"exit", {{"state", exit}, {"reason", exit == "finished" ? "" : "step collapse"}}}};
+    write(paths_.runs / id / "run.json", json.dump());
+    write(paths_.runs / id / "series.csv", series_text);
+  }
+
+  void write_record(const std::string& variant, double speed, const std::string& hash) {
+    const nlohmann::json json{{"scene", "s1"}, {"case_hash", hash}};
+    write(paths_.records / "s1" / variant / "record.json", json.dump());
+    write(paths_.records / "s1" / variant / "series.csv", series(speed));
+  }
+
+  Evaluation evaluate_row(const std::string& row) {
+    return evaluate(
+        parse_table("[[run]]\nid = \"s1\"\n[[check]]\nrun = \"s1\"\nfrequency = \"verify\"\n" + row, "t"),
+        Frequency::verify, paths_);
+  }
+
+  // The run-out at T = 5 is 5 tau speed / h0.
+  double run_out_at_5(double speed) const {
+    const double height = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
+    return 5.0 * std::sqrt(height / scene_.gravity) * speed / height;
+  }
+
+  const std::string volume_row =
+      "metric = \"solid_volume_error\"\nreference = { kind = \"theory\", value = 0, source = \"x\" }\n"
+      "tolerance = { absolute = 1e-12, unit = \"-\" }\n";
+  const std::string record_row =
+      "metric = \"run_out\"\nat = 5\nreference = { kind = \"DEM\", record = \"s1\" }\n"
+      "tolerance = { absolute = 0.01, unit = \"-\" }\n";
+
+  fs::path root_;
+  Paths paths_;
+  Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml");
+};
+
+TEST_F(Evaluate, AUsableRunIsJudged) {
+  write_run("s1", series(0.1));
+  const Evaluation evaluation = evaluate_row(volume_row);
+  ASSERT_EQ(evaluation.results.size(), 1u);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::agrees);
+  EXPECT_DOUBLE_EQ(*evaluation.results[0].value, 1e-15);
+  EXPECT_EQ(evaluation.unexpected(), 0);
+}
+
+TEST_F(Evaluate, AMissingRunIsNotRunAndRed) {
+  const Evaluation evaluation = evaluate_row(volume_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_EQ(evaluation.unexpected(), 1);
+}
+
+TEST_F(Evaluate, AFailedRunIsNotRunWithItsReason) {
+  write_run("s1", series(0.1), "failed");
+  const Evaluation evaluation = evaluate_row(volume_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_EQ(evaluation.unexpected(), 1);
+  EXPECT_NE(evaluation.runs[0].reason.find("step collapse"), std::string::npos);
+}
+
+TEST_F(Evaluate, ARunOfAnotherStateOfItsCaseIsStale) {
+  write_run("s1", series(0.1), "finished", "\nchanged = 1\n");
+  const Evaluation evaluation = evaluate_row(volume_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::stale);
+  EXPECT_EQ(evaluation.unexpected(), 1);
+  EXPECT_NE(evaluation.runs[0].reason.find("changed = 1"), std::string::npos) << evaluation.runs[0].reason;
+}
+
+TEST_F(Evaluate, ANaNAnywhereRefusesTheRun) {
+  for (const char* bad : {"nan", "inf", "-nan"}) {
+    // In a column that the row does not even read.
+    write_run("s1", series(0.1, std::string("0.8,") + bad + ",0.2,0.002\n"));
+    const Evaluation evaluation = evaluate_row(volume_row);
+    EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run) << bad;
+    EXPECT_EQ(evaluation.unexpected(), 1) << bad;
+    EXPECT_NE(evaluation.runs[0].reason.find("refused"), std::string::npos);
+  }
+}
+
+TEST_F(Evaluate, AnUndefinedMetricDiffers) {
+  write_run("s1", series(0.1));
+  const Evaluation evaluation = evaluate_row(
+      "metric = \"immersed_share\"\nwindow = [3, 6]\nreference = { kind = \"theory\", formula = "
+      "\"density_ratio\" }\n"
+      "tolerance = { absolute = 0.01, unit = \"-\" }\n");
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::differs);
+  EXPECT_FALSE(evaluation.results[0].value);
+  EXPECT_EQ(evaluation.unexpected(), 1);
+}
+
+TEST_F(Evaluate, WithoutARecordTheRowIsNotRunAndNotRed) {
+  write_run("s1", series(0.1));
+  const Evaluation evaluation = evaluate_row(record_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_NEAR(*evaluation.results[0].value, run_out_at_5(0.1), 1e-4);
+  EXPECT_EQ(evaluation.unexpected(), 0);
+}
+
+TEST_F(Evaluate, TheSpreadOfTheRecordsIsTheBand) {
+  write_run("s1", series(0.102));
+  write_record("seed1", 0.10, scene_.reference_hash);
+  write_record("seed2", 0.11, scene_.reference_hash);
+  const Evaluation evaluation = evaluate_row(record_row);
+  const Result& result = evaluation.results[0];
+  EXPECT_NEAR(*result.reference, run_out_at_5(0.105), 1e-4);
+  EXPECT_NEAR(result.band, run_out_at_5(0.005), 1e-4);
+  EXPECT_EQ(result.judgement.verdict, Verdict::within_band);
+}
+
+TEST_F(Evaluate, OneRecordHasNoBand) {
+  write_run("s1", series(0.102));
+  write_record("seed1", 0.11, scene_.reference_hash);
+  const Evaluation evaluation = evaluate_row(record_row);
+  EXPECT_DOUBLE_EQ(evaluation.results[0].band, 0.0);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::differs);
+  EXPECT_EQ(evaluation.unexpected(), 1);
+}
+
+TEST_F(Evaluate, AStaleRecordIsNeverCompared) {
+  write_run("s1", series(0.1));
+  write_record("seed1", 0.1, "another");
+  const Evaluation evaluation = evaluate_row(record_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::stale);
+  EXPECT_FALSE(evaluation.results[0].reference);
+  EXPECT_EQ(evaluation.unexpected(), 0);
+}
+
+TEST_F(Evaluate, ResultFilesHoldTheRow) {
+  write_run("s1", series(0.1));
+  const Evaluation evaluation = evaluate_row(volume_row);
+  EXPECT_EQ(results_csv(evaluation),
+            "scene,metric,value,unit,reference,reference_kind,reference_source,tolerance,verdict\n"
+            "s1,solid_volume_error,1e-15,-,0,theory,x,1e-12 [-],agrees\n");
+  const auto json =
+      nlohmann::json::parse(results_json(evaluation, Frequency::verify, "2026-01-01T00:00:00Z"));
+  EXPECT_EQ(json.at("results").at(0).at("verdict"), "agrees");
+  EXPECT_EQ(json.at("runs").at(0).at("numbers").at("core_seconds"), 2.5);
+  EXPECT_EQ(json.at("unexpected"), 0);
+  const auto curves = nlohmann::json::parse(curves_json(evaluation));
+  EXPECT_EQ(curves.at("runs").at("s1").at("curves").at("run_out").at("x").size(), 11u);
+}
+
+TEST_F(Evaluate, JUnitCountsFailuresAndEscapes) {
+  const Evaluation evaluation = evaluate_row(
+      "metric = \"solid_volume_error\"\nreference = { kind = \"theory\", value = 0, source = \"a < b & "
+      "\\\"c\\\"\" }\n"
+      "tolerance = { absolute = 1e-12, unit = \"-\" }\n");
+  const std::string xml = junit_xml(evaluation);
+  EXPECT_NE(xml.find("tests=\"1\" failures=\"1\" skipped=\"0\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
+}
+
+TEST_F(Evaluate, ABadCaseIsAnError) {
+  paths_.cases = root_ / "nowhere";
+  EXPECT_THROW(evaluate_row(volume_row), CaseError);
+}
+
+}  // namespace
+}  // namespace granvof::compare
