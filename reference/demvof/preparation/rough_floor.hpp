@@ -13,8 +13,8 @@ struct FloorArea {
   bool periodic_depth = true;
 };
 
-// Beads placed at random without overlap in plan, half sunk: centres at heights 0 to 0.2 d over the floor plane.
-// They cover about half of the area (random placing jams at 0.547). Three numbers a bead; the same seed gives the
+// Beads at random without overlap in plan (less than 1 % of d), half sunk: centres at heights 0 to 0.2 d over the floor
+// plane. They cover 70 % of the area, so that no other bead reaches the plane. Three numbers a bead; the same seed gives the
 // same floor.
 std::vector<double> rough_floor(const FloorArea& area, double diameter, unsigned seed);
 

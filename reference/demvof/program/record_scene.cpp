@@ -27,7 +27,7 @@ std::vector<granvof::Column> monitor_columns() {
   return {{"fluid_step", "s", "length of the last fluid step"},
           {"bead_front", "m", "x left of which 99.5 % of the beads have their centres"},
           {"bead_speed_rms", "m/s", "rms speed of the beads"},
-          {"floor_slip", "-", "mean |u_x| of the lowest layer of beads over that of the next"},
+          {"floor_slip", "-", "mean u_x of the lowest layer of beads over that of the next, beyond the initial bed"},
           {"excess_base_pressure", "Pa", "floor pressure under the initial bed beyond the liquid's own weight"},
           {"fluid_speed_max", "m/s", "largest speed of the continuous phase"},
           {"liquid_volume_change", "-", "relative change of the liquid volume since the start"}};
@@ -87,7 +87,7 @@ class Recording {
     const std::vector<granvof::Value> monitors{last_step_,
                                                bead_front(beads),
                                                bead_rms_speed(beads),
-                                               floor_slip(beads, scene_.solid.diameter),
+                                               floor_slip(beads, scene_.solid.diameter, scene_.bed->box.upper[0]),
                                                excess_base_pressure(run_, scene_),
                                                run_.fluid().largest_speed(),
                                                change};

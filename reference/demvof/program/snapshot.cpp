@@ -71,17 +71,17 @@ double bead_rms_speed(const BeadState& beads) {
   return std::sqrt(sum / static_cast<double>(beads.count()));
 }
 
-std::optional<double> floor_slip(const BeadState& beads, double diameter) {
+std::optional<double> floor_slip(const BeadState& beads, double diameter, double from) {
   double speed[2] = {0.0, 0.0};
   double number[2] = {0.0, 0.0};
   for (std::size_t b = 0; b < beads.count(); ++b) {
     const double layer = beads.position[3 * b + 1] / diameter;
-    if (layer >= 2.0 || layer < 0.0) continue;
-    const int which = layer < 1.0 ? 0 : 1;
-    speed[which] += std::abs(beads.velocity[3 * b]);
+    if (layer >= 2.5 || beads.position[3 * b] <= from) continue;
+    const int which = layer < 1.5 ? 0 : 1;
+    speed[which] += beads.velocity[3 * b];
     number[which] += 1.0;
   }
-  if (number[0] < 1.0 || number[1] < 1.0 || speed[1] / number[1] < 1e-3) return std::nullopt;
+  if (number[0] < 10.0 || number[1] < 10.0 || speed[1] / number[1] < 1e-2) return std::nullopt;
   return speed[0] / number[0] / (speed[1] / number[1]);
 }
 

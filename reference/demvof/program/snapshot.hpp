@@ -18,9 +18,9 @@ double bead_front(const BeadState& beads);
 double bead_rms_speed(const BeadState& beads);  // [m/s]
 // Height below which 99.5 % of the beads' upper edges lie [m].
 double bed_top(const BeadState& beads, double diameter);
-// Mean |u_x| of the beads whose centre lies within 1 d of the floor, over that of the beads between 1 and 2 d; how
-// far the floor lets the lowest layer slide. None where either layer rests. [-]
-std::optional<double> floor_slip(const BeadState& beads, double diameter);
+// Mean u_x of the lowest layer of beads (centres below 1.5 d) over that of the next (to 2.5 d), among the beads that
+// have left the initial bed, x > from; how far the floor lets the lowest layer slide. None where nothing moves. [-]
+std::optional<double> floor_slip(const BeadState& beads, double diameter, double from);
 // Pressure along the floor cells under the bed's initial length, in excess of the liquid's own weight
 // rho_l g (level - y) [Pa].
 double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene);

@@ -1,0 +1,158 @@
+// Beads and fluid together, against theory.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <random>
+
+#include "reference/demvof/coupling/coupled_run.hpp"
+#include "reference/demvof/preparation/disperse.hpp"
+
+namespace {
+
+using demvof::BeadSettings;
+using demvof::BeadState;
+using demvof::CoupledRun;
+using demvof::FluidSettings;
+using demvof::FluidSide;
+
+constexpr double d = 0.8e-3;
+constexpr demvof::PhaseProperties water{1000.0, 1e-3};
+
+struct Setup {
+  FluidSettings fluid;
+  BeadSettings beads;
+  std::size_t cells() const {
+    return static_cast<std::size_t>(fluid.cells[0]) * static_cast<std::size_t>(fluid.cells[1]);
+  }
+};
+
+// A two-dimensional tank of water without a surface, closed or open at the top.
+Setup tank(int nx, int ny, double cell, double depth, FluidSide top) {
+  Setup s;
+  s.fluid.cells = {{nx, ny, 1}};
+  s.fluid.spacing = {{cell, cell, depth}};
+  s.fluid.sides = {{FluidSide::slip, FluidSide::slip, FluidSide::slip, top, FluidSide::empty, FluidSide::empty}};
+  s.fluid.large_eddy = false;
+  s.fluid.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
+  s.beads.tank = {nx * cell, ny * cell, depth};
+  s.beads.diameter = d;
+  s.beads.density = 2500.0;
+  s.beads.scratch_folder = s.fluid.scratch_folder;
+  return s;
+}
+
+CoupledRun start(const Setup& s, const std::vector<double>& position, double fluid_dt = 2e-4) {
+  BeadState beads;
+  beads.position = position;
+  demvof::CouplingSettings coupling;
+  coupling.fluid_dt = fluid_dt;
+  return CoupledRun(coupling, s.beads, beads, {}, s.fluid, std::vector<double>(s.cells(), 1.0));
+}
+
+// Speed at which drag (8), (9) at this solid fraction balances the submerged weight [m/s].
+double terminal_speed(double f_s, double density, double gravity) {
+  const double volume = std::numbers::pi / 6.0 * d * d * d;
+  // In a suspension the pressure gradient carries the mixture: weight less buoyancy in the mixture is
+  // (1 - f_s) (rho_s - rho_l) g V.
+  const double weight = volume * (1.0 - f_s) * std::abs(density - water.density) * gravity;
+  double low = 0.0, high = 2.0;
+  for (int n = 0; n < 100; ++n) {
+    const double u = 0.5 * (low + high);
+    (demvof::bead_drag(f_s, u, water, d) * u < weight ? low : high) = u;
+  }
+  return low;
+}
+
+double mean_velocity(const CoupledRun& run, std::size_t direction) {
+  const std::vector<double>& v = run.beads().state().velocity;
+  double sum = 0.0;
+  for (std::size_t n = direction; n < v.size(); n += 3) sum += v[n];
+  return sum / static_cast<double>(run.beads().state().count());
+}
+
+}  // namespace
+
+TEST(Coupling, ALoneBeadSettlesAtItsTerminalSpeed) {
+  // Cells wide enough that the bead hardly moves the water it sees.
+  const Setup s = tank(8, 12, 0.01, 0.02, FluidSide::open);
+  CoupledRun run = start(s, {0.04, 0.09, 0.01});
+  for (int n = 0; n < 1000; ++n) run.step(2e-4);
+  const double expected = terminal_speed(0.0, 2500.0, 9.81);
+  EXPECT_NEAR(expected, 0.1126, 0.0002);
+  EXPECT_NEAR(-mean_velocity(run, 1), expected, 0.02 * expected);
+}
+
+// Two-way drag and pressure between beads that shoot through water and the water, without gravity: what is
+// lost by the one side the other side and the walls have.
+TEST(Coupling, MomentumOfBeadsFluidAndWallsIsBalanced) {
+  Setup s = tank(16, 16, 2.5e-3, 4e-3, FluidSide::slip);
+  s.fluid.gravity = s.beads.gravity = 0.0;
+  std::mt19937 random(1);
+  const auto position = demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
+  CoupledRun run = start(s, position);
+  std::vector<double> velocity(position.size(), 0.0);
+  for (std::size_t n = 0; n < velocity.size(); n += 3) velocity[n] = 0.2;
+  run.beads().set_velocities(velocity);
+  run.beads().run(1);
+  const double given = run.beads().bead_mass() * 200.0 * 0.2;
+  const double start_momentum = run.momentum()[0];
+  double walls = 0.0;
+  for (int n = 0; n < 100; ++n) {
+    const double duration = run.step(2e-4);
+    walls += duration * run.fluid().boundary_force()[0];
+  }
+  const double change = run.momentum()[0] - start_momentum;
+  EXPECT_GT(std::abs(walls), 0.05 * given);  // the walls do take part
+  EXPECT_NEAR(change, walls, 0.01 * given);
+}
+
+// Beads at a solid fraction of about 0.2 in a closed box: their speed relative to the water is that of (8) at
+// this fraction, and the return flow makes the volume flux zero.
+TEST(Coupling, HinderedSettling) {
+  Setup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::slip);
+  std::mt19937 random(1);
+  const double f_s = 0.15, volume = std::numbers::pi / 6.0 * d * d * d;
+  const auto count = static_cast<std::size_t>(f_s * 0.01 * 0.06 * 4e-3 / volume);
+  const auto position = demvof::disperse_beads(count, {0, 0, 0}, {0.01, 0.06, 4e-3}, true, d, random);
+  CoupledRun run = start(s, position, 1e-4);
+  double settled = 0.0, slip_of_law = terminal_speed(f_s, 2500.0, 9.81);
+  int samples = 0;
+  for (int n = 0; n < 600; ++n) {
+    run.step(1e-4);
+    if (n < 300) continue;
+    // Only the middle, where the fraction is still the initial one.
+    const std::vector<double>& x = run.beads().state().position;
+    const std::vector<double>& v = run.beads().state().velocity;
+    double sum = 0.0;
+    int inside = 0;
+    for (std::size_t b = 0; b < x.size(); b += 3) {
+      if (x[b + 1] < 0.02 || x[b + 1] > 0.04) continue;
+      sum -= v[b + 1];
+      ++inside;
+    }
+    settled += sum / inside;
+    ++samples;
+  }
+  settled /= samples;
+  EXPECT_NEAR(settled, (1.0 - f_s) * slip_of_law, 0.10 * slip_of_law);
+}
+
+// Beads falling steadily in a column carry all their submerged weight by the pressure of the water below them.
+TEST(Coupling, FallingBedLoadsThePoreWaterWithItsSubmergedWeight) {
+  Setup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::open);
+  std::mt19937 random(2);
+  const double f_s = 0.5, volume = std::numbers::pi / 6.0 * d * d * d;
+  const auto count = static_cast<std::size_t>(f_s * 0.01 * 0.03 * 4e-3 / volume);
+  const auto position = demvof::disperse_beads(count, {0, 0.02, 0}, {0.01, 0.05, 4e-3}, true, d, random);
+  CoupledRun run = start(s, position, 1e-4);
+  const double at_rest = 1000.0 * 9.81 * (0.06 - 0.5 * 2.5e-3);
+  double sum = 0.0;
+  for (int n = 0; n < 200; ++n) {
+    run.step(1e-4);
+    if (n >= 100) sum += run.fluid().view().pressure[0] / 100.0;
+  }
+  const double submerged = static_cast<double>(count) * volume * 1500.0 * 9.81 / (0.01 * 4e-3);
+  EXPECT_NEAR(sum - at_rest, submerged, 0.1 * submerged);
+}

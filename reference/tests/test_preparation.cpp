@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <random>
+
+#include "reference/demvof/preparation/column.hpp"
+#include "reference/demvof/preparation/disperse.hpp"
+#include "reference/demvof/preparation/rough_floor.hpp"
+
+namespace {
+
+constexpr double d = 1e-3;
+
+double deepest_overlap(const std::vector<double>& x, double depth, bool in_plan) {
+  double deepest = 0.0;
+  for (std::size_t a = 0; a + 2 < x.size(); a += 3) {
+    for (std::size_t b = a + 3; b + 2 < x.size(); b += 3) {
+      double dz = x[a + 2] - x[b + 2];
+      dz -= depth * std::round(dz / depth);
+      const double dy = in_plan ? 0.0 : x[a + 1] - x[b + 1];
+      deepest = std::max(deepest, d - std::hypot(x[a] - x[b], dy, dz));
+    }
+  }
+  return deepest;
+}
+
+demvof::ColumnSettings small_column() {
+  demvof::ColumnSettings s;
+  s.upper = {0.012, 0.012, 0.004};
+  s.diameter = d;
+  s.density = 2500.0;
+  s.buoyant_gravity = 5.9;
+  s.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
+  return s;
+}
+
+}  // namespace
+
+TEST(Disperse, FillsHalfOfTheBoxWithoutOverlap) {
+  std::mt19937 random(1);
+  const auto count = static_cast<std::size_t>(0.5 * 0.02 * 0.01 * 0.004 / (std::numbers::pi / 6.0 * d * d * d));
+  const auto x = demvof::disperse_beads(count, {0, 0, 0}, {0.02, 0.01, 0.004}, true, d, random);
+  EXPECT_EQ(x.size(), 3 * count);
+  EXPECT_LT(deepest_overlap(x, 0.004, false), 0.01 * d);
+}
+
+TEST(RoughFloor, CoversSeventyPercentWithoutOverlapInPlan) {
+  const auto x = demvof::rough_floor({0.05, 0.004, true}, d, 5);
+  const double covered = static_cast<double>(x.size() / 3) * std::numbers::pi / 4.0 * d * d / (0.05 * 0.004);
+  EXPECT_NEAR(covered, 0.7, 0.01);
+  EXPECT_LT(deepest_overlap(x, 0.004, true), 0.01 * d);
+  for (std::size_t n = 1; n < x.size(); n += 3) {
+    EXPECT_GE(x[n], 0.0);
+    EXPECT_LE(x[n], 0.2 * d);
+  }
+}
+
+TEST(Column, FrictionOfThePreparationSetsThePacking) {
+  demvof::ColumnSettings s = small_column();
+  s.preparation_law.bead_friction = s.final_law.bead_friction = 0.05;
+  const demvof::Column smooth = demvof::prepare_column(s);
+  s.preparation_law.bead_friction = s.final_law.bead_friction = 1.0;
+  const demvof::Column rough = demvof::prepare_column(s);
+  EXPECT_GT(smooth.packing, rough.packing + 0.015);
+  EXPECT_NEAR(smooth.packing, 0.60, 0.04);
+  EXPECT_NEAR(rough.packing, 0.56, 0.04);
+}
+
+TEST(Column, TheSameSeedGivesTheSameColumn) {
+  demvof::ColumnSettings s = small_column();
+  s.suspended = true;
+  s.packing = 0.5;
+  EXPECT_EQ(demvof::prepare_column(s).position, demvof::prepare_column(s).position);
+  const auto first = demvof::prepare_column(s).position;
+  s.seed = 2;
+  EXPECT_NE(first, demvof::prepare_column(s).position);
+}
