@@ -1,41 +1,10 @@
 #include "solver/run/state.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "solver/operators/mixture.hpp"
+#include "solver/scene/fill.hpp"
 
 namespace granvof {
 namespace {
-
-// Share of the cell at (i, j, k) that lies inside the box [-].
-double overlap(const Grid& grid, const Box& box, const std::array<int, 3>& cell) {
-  double share = 1.0;
-  for (int d = 0; d < grid.dim; ++d) {
-    const double lower = cell[d] * grid.h[d], upper = lower + grid.h[d];
-    share *=
-        std::clamp((std::min(upper, box.upper[d]) - std::max(lower, box.lower[d])) / grid.h[d], 0.0, 1.0);
-  }
-  return share;
-}
-
-// The same for the bed, whose front face may slope: the cell is cut into thin columns.
-double overlap(const Grid& grid, const Bed& bed, const std::array<int, 3>& cell) {
-  constexpr int columns = 16;
-  if (bed.slope >= 90.0) return overlap(grid, bed.box, cell);
-  const double rise = std::tan(bed.slope * std::numbers::pi / 180.0);
-  double share = 0.0;
-  for (int i = 0; i < columns; ++i) {
-    const double x = (cell[0] + (i + 0.5) / columns) * grid.h[0];
-    Box part = bed.box;
-    part.upper[1] = std::min(part.upper[1], part.lower[1] + std::max(bed.box.upper[0] - x, 0.0) * rise);
-    part.lower[0] = std::max(part.lower[0], (cell[0] + double(i) / columns) * grid.h[0]);
-    part.upper[0] = std::min(part.upper[0], (cell[0] + double(i + 1) / columns) * grid.h[0]);
-    if (part.upper[1] > part.lower[1] && part.upper[0] > part.lower[0]) share += overlap(grid, part, cell);
-  }
-  return share;
-}
 
 template <typename Body>
 void for_cells(const Grid& grid, Body&& body) {
@@ -74,14 +43,14 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
   State s(grid);
   s.time = 0.0 - scene.times.hold;  // 0, not -0, without a hold
   for_cells(grid, [&](const std::array<int, 3>& cell, std::ptrdiff_t c) {
+    Box box;
+    for (int d = 0; d < 3; ++d) box.upper[d] = (box.lower[d] = cell[d] * grid.h[d]) + grid.h[d];
     if (scene.bed) {
-      const double share = overlap(grid, *scene.bed, cell);
+      const double share = share_of(*scene.bed, box);
       s.f_s[c] = scene.bed->solid_fraction * share;
       s.phi[c] = share > 0.0 ? 1.0 : 0.0;
     }
-    double liquid = 0.0;
-    for (const Box& box : scene.liquid_boxes) liquid += overlap(grid, box, cell);
-    s.alpha[c] = std::min(liquid, 1.0);
+    s.alpha[c] = share_of(scene.liquid_boxes, box);
   });
   // Hydrostatic from the top down, with the continuous phase alone: grains at rest hang on P_s, not on P_c.
   const Layout& l = grid.cells;
