@@ -11,7 +11,10 @@ ColumnSize column_of(const Scene& scene) {
 
 Curve run_out_curve(const Run& run) {
   if (!run.scene.bed) return {};
-  return run_out(run.curve("front_dense"), run.curve("front_dilute"), column_of(run.scene));
+  // Others may give one front only; it then serves to the end.
+  const bool both = run.series.has("front_dilute");
+  return run_out(run.curve("front_dense"), run.curve(both ? "front_dilute" : "front_dense"),
+                 column_of(run.scene));
 }
 
 double base_pressure_at_rest(const Scene& scene) {

@@ -10,9 +10,11 @@
 
 #include "compare/checks/evaluate.hpp"
 #include "compare/checks/table.hpp"
+#include "compare/lay/lay.hpp"
 #include "compare/output/write.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/run_record.hpp"
+#include "solver/scene/load_scene.hpp"
 
 namespace {
 
@@ -56,6 +58,26 @@ int check_runs(const Options& options) {
   return evaluation.unexpected() == 0 ? 0 : 1;
 }
 
+struct LayOptions {
+  std::string scene;
+  std::filesystem::path series, run, out = "out/lay";
+  std::string name;
+  std::vector<std::string> set;
+};
+
+int lay_beside(const LayOptions& options, const Paths& paths) {
+  const Scene scene = load_scene(paths.cases / (options.scene + ".toml"), options.set);
+  const auto directory = options.run.empty() ? paths.runs / options.scene : options.run;
+  const LoadedRun ours = load_run(directory, options.scene, scene);
+  if (!ours.run) throw std::runtime_error(ours.reason);
+  const std::string name = options.name.empty() ? options.series.stem().string() : options.name;
+  const auto curves = lay(*ours.run, read_their_series(options.series, scene));
+  std::filesystem::create_directories(options.out);
+  write_file_atomically(options.out / "lay.json", lay_json(curves, *ours.run, name));
+  fmt::print("{}", lay_table(curves, name));
+  return 0;
+}
+
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--checks", options.table, "the table of checks")->capture_default_str();
   command.add_option("--frequency", options.frequency, "rows due at: verify, short, nightly or weekly")
@@ -81,12 +103,27 @@ int main(int argc, char** argv) {
       app.add_subcommand("plan", "print the runs the table needs: id, case and overrides, tab-separated");
   add_common(*plan, options);
 
+  LayOptions laid;
+  CLI::App* lay_command =
+      app.add_subcommand("lay", "lay a series of others beside a run (compare/lay/README.md)");
+  lay_command->add_option("--scene", laid.scene, "case of both, by its name in --cases")->required();
+  lay_command->add_option("--series", laid.series, "their CSV: header 'name [unit]', time [s] or T [-]")
+      ->required()
+      ->check(CLI::ExistingFile);
+  lay_command->add_option("--name", laid.name, "what to call them (default: the file's name)");
+  lay_command->add_option("--run", laid.run, "our run directory (default: SCENE below --runs)");
+  lay_command->add_option("--set", laid.set, "overrides our run was made with")->allow_extra_args(false);
+  lay_command->add_option("--runs", options.paths.runs, "run directories")->capture_default_str();
+  lay_command->add_option("--cases", options.paths.cases, "case files")->capture_default_str();
+  lay_command->add_option("--out", laid.out, "where lay.json goes")->capture_default_str();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    if (*lay_command) return lay_beside(laid, options.paths);
     return *plan ? print_plan(options) : check_runs(options);
   } catch (const std::exception& error) {
     fmt::print(stderr, "granvof-compare: {}\n", error.what());

@@ -1,0 +1,89 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "compare/lay/lay.hpp"
+#include "solver/output/output_error.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+class Lay : public testing::Test {
+ protected:
+  compare::Run theirs(const std::string& text) const {
+    const auto file = std::filesystem::path(testing::TempDir()) / "theirs.csv";
+    std::ofstream(file) << text;
+    return read_their_series(file, scene_);
+  }
+
+  std::string refusal(const std::string& text) const {
+    try {
+      theirs(text);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  const Scene scene_ = load_scene(std::filesystem::path(GRANVOF_CASES_DIR) / "s1.toml");
+  const double height_ = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
+  const double tau_ = std::sqrt(height_ / scene_.gravity);
+  // Our front moves h0 in 2 tau.
+  const compare::Run ours_ =
+      theirs("T [-],front_dense [m]\n0,0.1\n2," + std::to_string(0.1 + height_) + "\n");
+};
+
+TEST_F(Lay, FrontsInMetresAgainstSecondsMeetOurs) {
+  const compare::Run run = theirs("time [s],front_dense [m]\n0,0.2\n" + std::to_string(2 * tau_) + "," +
+                                  std::to_string(0.2 + 0.5 * height_) + "\n");
+  const auto curves = lay(ours_, run);
+  ASSERT_EQ(curves.size(), 2u);  // the derived run-out, and the front itself
+  EXPECT_EQ(curves[0].name, "run_out");
+  EXPECT_NEAR(*curves[0].ours_at_end, 1.0, 1e-3);
+  EXPECT_NEAR(*curves[0].theirs_at_end, 0.5, 1e-3);
+  EXPECT_NEAR(curves[0].window.end, 2.0, 1e-3);
+  EXPECT_EQ(curves[1].name, "front_dense");
+}
+
+TEST_F(Lay, RunOutMayBeGivenDirectly) {
+  const auto curves = lay(ours_, theirs("T [-],run_out [-]\n0,0\n1,0.5\n4,2\n"));
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_NEAR(*curves[0].rms, 0.0, 1e-4);
+  EXPECT_NEAR(*curves[0].theirs_at_end, 1.0, 1e-4);
+}
+
+TEST_F(Lay, AnEmptyFieldIsLeftOut) {
+  const auto curves = lay(ours_, theirs("T [-],run_out [-]\n0,0\n1,\n2,1\n"));
+  EXPECT_EQ(curves[0].theirs.size(), 2u);
+}
+
+TEST_F(Lay, BadInputIsNamed) {
+  EXPECT_NE(refusal("time [s],speed [m/s]\n0,1\n").find("'speed' is not known; allowed: time, T, run_out"),
+            std::string::npos);
+  EXPECT_NE(refusal("time [s],front_dense [cm]\n0,1\n").find("is in 'cm', expected 'm'"), std::string::npos);
+  EXPECT_NE(refusal("front_dense [m]\n1\n").find("one column 'time [s]' or 'T [-]' is needed, there are 0"),
+            std::string::npos);
+  EXPECT_NE(refusal("time [s],T [-]\n0,1\n").find("there are 2"), std::string::npos);
+  EXPECT_NE(refusal("time [s],front_dense [m]\n0,nan\n").find("line 2"), std::string::npos);
+  EXPECT_NE(refusal("time [ms],front_dense [m]\n0,1\n").find("expected 's'"), std::string::npos);
+}
+
+TEST_F(Lay, NothingInCommonIsAnError) {
+  EXPECT_THROW(lay(ours_, theirs("time [s],p_base [Pa]\n0,1\n1,2\n")), std::invalid_argument);
+  EXPECT_THROW(lay(ours_, theirs("T [-],run_out [-]\n5,1\n6,2\n")), std::invalid_argument);
+}
+
+TEST_F(Lay, JsonHoldsBothCurves) {
+  const auto json = nlohmann::json::parse(
+      lay_json(lay(ours_, theirs("T [-],run_out [-]\n0,0\n2,1\n")), ours_, "a laboratory"));
+  EXPECT_EQ(json.at("theirs"), "a laboratory");
+  EXPECT_EQ(json.at("curves").at(0).at("theirs").at("y").size(), 2u);
+}
+
+}  // namespace
+}  // namespace granvof::compare
