@@ -1,6 +1,6 @@
 # A thin front for CMake's presets and the scripts in ci/, compare/ and reference/. `make help` lists the targets.
 #
-# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (verify says `not run` for what needs them)
+# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is reported as `not run`)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
 .DEFAULT_GOAL := help
@@ -28,22 +28,22 @@ help:  ## list the targets
 setup:  ## install what is missing (Debian packages; root or sudo)
 	@ci/setup
 
-build: setup  ## build everything but the reference
-	ci/build release
+build: setup  ## build the programs, the reference left out
+	ci/build --programs release
 
 verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
 	$(call need,compare/verify)
-	ci/build --reference=$(REFERENCE) release
+	ci/build --programs --reference=$(REFERENCE) release
 	compare/verify --build-dir $(RELEASE) --out $(OUT) $(if $(VERIFY),--frequency $(VERIFY))
 
 test: setup  ## unit and verification tests (ctest), then the Python tests
-	ci/build release
+	ci/build --reference=$(REFERENCE) release
 	ctest --preset release --label-regex '^(unit|verification)$$' --parallel $(JOBS)
 	$(PYTHON) -m pytest -q -p no:cacheprovider --import-mode=importlib $(PYTEST_DIRS)
 
 reference: setup  ## run and record the DEM-VOF reference where missing or stale (SCENE=s1: one scene)
 	$(call need,reference/record)
-	ci/build --reference=required release
+	ci/build --programs --reference=required release
 	reference/record --build-dir $(RELEASE) $(SCENE)
 
 plots: setup  ## plots and report from existing results, without running anything
