@@ -20,7 +20,7 @@ using demvof::FluidSide;
 constexpr double d = 0.8e-3;
 constexpr demvof::PhaseProperties water{1000.0, 1e-3};
 
-struct Setup {
+struct TankSetup {
   FluidSettings fluid;
   BeadSettings beads;
   std::size_t cells() const {
@@ -29,8 +29,8 @@ struct Setup {
 };
 
 // A two-dimensional tank of water without a surface, closed or open at the top.
-Setup tank(int nx, int ny, double cell, double depth, FluidSide top) {
-  Setup s;
+TankSetup tank(int nx, int ny, double cell, double depth, FluidSide top) {
+  TankSetup s;
   s.fluid.cells = {{nx, ny, 1}};
   s.fluid.spacing = {{cell, cell, depth}};
   s.fluid.sides = {{FluidSide::slip, FluidSide::slip, FluidSide::slip, top, FluidSide::empty, FluidSide::empty}};
@@ -43,7 +43,7 @@ Setup tank(int nx, int ny, double cell, double depth, FluidSide top) {
   return s;
 }
 
-CoupledRun start(const Setup& s, const std::vector<double>& position, double fluid_dt = 2e-4) {
+CoupledRun start(const TankSetup& s, const std::vector<double>& position, double fluid_dt = 2e-4) {
   BeadState beads;
   beads.position = position;
   demvof::CouplingSettings coupling;
@@ -76,7 +76,7 @@ double mean_velocity(const CoupledRun& run, std::size_t direction) {
 
 TEST(Coupling, ALoneBeadSettlesAtItsTerminalSpeed) {
   // Cells wide enough that the bead hardly moves the water it sees.
-  const Setup s = tank(8, 12, 0.01, 0.02, FluidSide::open);
+  const TankSetup s = tank(8, 12, 0.01, 0.02, FluidSide::open);
   CoupledRun run = start(s, {0.04, 0.09, 0.01});
   for (int n = 0; n < 1000; ++n) run.step(2e-4);
   const double expected = terminal_speed(0.0, 2500.0, 9.81);
@@ -87,7 +87,7 @@ TEST(Coupling, ALoneBeadSettlesAtItsTerminalSpeed) {
 // Two-way drag and pressure between beads that shoot through water and the water, without gravity: what is
 // lost by the one side the other side and the walls have.
 TEST(Coupling, MomentumOfBeadsFluidAndWallsIsBalanced) {
-  Setup s = tank(16, 16, 2.5e-3, 4e-3, FluidSide::slip);
+  TankSetup s = tank(16, 16, 2.5e-3, 4e-3, FluidSide::slip);
   s.fluid.gravity = s.beads.gravity = 0.0;
   std::mt19937 random(1);
   const auto position = demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
@@ -111,7 +111,7 @@ TEST(Coupling, MomentumOfBeadsFluidAndWallsIsBalanced) {
 // Beads at a solid fraction of about 0.2 in a closed box: their speed relative to the water is that of (8) at
 // this fraction, and the return flow makes the volume flux zero.
 TEST(Coupling, HinderedSettling) {
-  Setup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::slip);
+  TankSetup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::slip);
   std::mt19937 random(1);
   const double f_s = 0.15, volume = std::numbers::pi / 6.0 * d * d * d;
   const auto count = static_cast<std::size_t>(f_s * 0.01 * 0.06 * 4e-3 / volume);
@@ -141,7 +141,7 @@ TEST(Coupling, HinderedSettling) {
 
 // Beads falling steadily in a column carry all their submerged weight by the pressure of the water below them.
 TEST(Coupling, FallingBedLoadsThePoreWaterWithItsSubmergedWeight) {
-  Setup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::open);
+  TankSetup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::open);
   std::mt19937 random(2);
   const double f_s = 0.5, volume = std::numbers::pi / 6.0 * d * d * d;
   const auto count = static_cast<std::size_t>(f_s * 0.01 * 0.03 * 4e-3 / volume);

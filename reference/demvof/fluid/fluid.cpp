@@ -63,6 +63,7 @@ void Fluid::step(double dt, const BeadLoad& load) {
       f.force[cell] = vector(load.force[0][c], load.force[1][c], load.force[2][c]);
     }
     f.eps.correctBoundaryConditions();
+    f.force.correctBoundaryConditions();
     solve_momentum_and_pressure(f);
     solve_interface(f);
   } catch (const error& problem) {

@@ -90,7 +90,8 @@ Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
       ghf(named("ghf", mesh), gravity() & mesh.Cf()),
       grad_p(named("gradP", mesh), mesh, dimensionedVector("0", dimPressure / dimLength, vector::zero)),
       drag(named("drag", mesh), mesh, dimensionedScalar("0", dimDensity / dimTime, 0.0)),
-      force(named("force", mesh), mesh, dimensionedVector("0", dimForce / dimVolume, vector::zero)),
+      force(named("force", mesh), mesh, dimensionedVector("0", dimForce / dimVolume, vector::zero),
+            patch_types(s, plain)),
       open(face_field("open", mesh, dimless, 1.0)),
       closed(true) {
   for (const FluidSide side : s.sides) closed = closed && side != FluidSide::open;

@@ -47,20 +47,23 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
 
   fvVectorMatrix equation(fvm::Sp(inertia, f.U) + fvm::div(f.rho_phi, f.U, "div(rhoPhi,U)") -
                           fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
-                          (inertia + fvc::div(f.rho_phi)) * U_old + f.drag * U_old + f.force +
+                          (inertia + fvc::div(f.rho_phi)) * U_old + f.drag * U_old +
                               fvc::div(f.eps * mu * dev2(T(fvc::grad(f.U))), "div(viscous)"));
 
   const volScalarField rAU(1.0 / equation.A());
   const surfaceScalarField eps_face(fvc::interpolate(f.eps));
   const surfaceScalarField coefficient("Dp", eps_face * fvc::interpolate(rAU * f.eps));
   const volScalarField swelling((f.eps - f.eps.oldTime()) / dt);
+  // The beads' force acts on the faces, as gravity does: were it left in the cells, the pressure at a wall would not
+  // balance it, and the cells beside the wall would feel half of the gradient.
+  const surfaceScalarField bead_pull((fvc::interpolate(f.force) & mesh.Sf()) / eps_face);
   surfaceScalarField gate_jump("gateJump", 0.0 * f.ghf * fvc::interpolate(f.rho));
 
   for (int correction = 0; correction < pressure_corrections; ++correction) {
     const volVectorField HbyA(constrainHbyA(rAU * equation.H(), f.U, f.p_rgh));
     const surfaceScalarField inertial_flux(eps_face * fvc::flux(HbyA));
     const surfaceScalarField buoyancy(-f.ghf * fvc::snGrad(f.rho) * mesh.magSf());
-    surfaceScalarField flux("phiHbyA", f.open * (inertial_flux + coefficient * buoyancy));
+    surfaceScalarField flux("phiHbyA", f.open * (inertial_flux + coefficient * (buoyancy + bead_pull)));
     constrainPressure(f.p_rgh, f.U, flux, coefficient);
 
     const surfaceScalarField open_coefficient("DpOpen", coefficient * f.open);
@@ -72,10 +75,10 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
 
     // Where a gate stands, the face carries what stops the flux, on the closed share of the face.
     const surfaceScalarField through(buoyancy - fvc::snGrad(f.p_rgh) * mesh.magSf());
-    const surfaceScalarField stopped(-inertial_flux / coefficient);
+    const surfaceScalarField stopped(-inertial_flux / coefficient - bead_pull);
     const surfaceScalarField pull(f.open * through + (1.0 - f.open) * stopped);
     const volVectorField reconstructed(fvc::reconstruct(pull));
-    f.U = HbyA + rAU * f.eps * reconstructed;
+    f.U = HbyA + rAU * f.eps * (reconstructed + fvc::reconstruct(bead_pull));
     f.U.correctBoundaryConditions();
     f.grad_p.primitiveFieldRef() = f.rho.primitiveField() * f.gravity().value() - reconstructed.primitiveField();
     gate_jump = (pull - through) / mesh.magSf() / mesh.deltaCoeffs();
