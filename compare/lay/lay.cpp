@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "compare/input/curves.hpp"
 #include "compare/metrics/run_out.hpp"
 #include "solver/output/extract.hpp"
+#include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -59,6 +61,9 @@ Curve curve_of(const Run& run, const Derived& quantity) {
 std::optional<LaidCurve> laid(std::string_view name, std::string_view unit, std::string_view abscissa,
                               Curve ours, Curve theirs) {
   if (ours.size() < 2 || theirs.size() < 2) return std::nullopt;
+  // A quantity that neither has (no grains, no gas) says nothing.
+  const auto zero = [](const Curve& curve) { return maximum(curve) == 0.0 && minimum(curve) == 0.0; };
+  if (zero(ours) && zero(theirs)) return std::nullopt;
   const Window window{std::max(ours.time.front(), theirs.time.front()),
                       std::min(ours.time.back(), theirs.time.back())};
   if (!(window.begin < window.end)) return std::nullopt;
@@ -111,6 +116,32 @@ Run read_their_series(const std::filesystem::path& file, const Scene& scene) {
   if (times != 1)
     throw std::invalid_argument(
         fmt::format("{}: one column 'time [s]' or 'T [-]' is needed, there are {}", file.string(), times));
+  return run;
+}
+
+Run read_their_fields(const std::filesystem::path& file, const Scene& scene) {
+  Run run{file.stem().string(), file.parent_path(), scene, {}, {}};
+  run.series.columns.push_back({"time", "s", ""});
+  for (const ScalarEntry& entry : scalar_table())
+    run.series.columns.push_back({std::string(entry.name), std::string(entry.unit), ""});
+  const std::size_t instants = read_field_times(file).size();
+  for (std::size_t index = 0; index < instants; ++index) {
+    CellFields fields = read_fields(file, index);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(scene.dimensions); ++d) {
+      const double length = fields.cells[d] * fields.spacing[d];
+      if (std::abs(length - scene.tank[d]) > 1e-6 * scene.tank[d])
+        throw std::invalid_argument(
+            fmt::format("{}: the box is {:.6g} m in direction {}, the tank of {} {:.6g} m", file.string(),
+                        length, d, scene.name, scene.tank[d]));
+    }
+    // In 2D a slice of any thickness stands for the depth the scene states.
+    if (scene.dimensions == 2 && fields.cells[2] == 1) fields.spacing[2] = scene.tank[2];
+    run.scene.grid.cells = fields.cells;
+    run.scene.grid.spacing = fields.spacing;
+    std::vector<Value> row{fields.time};
+    for (const Value& value : extract_scalars(fields, run.scene)) row.push_back(value);
+    run.series.rows.push_back(std::move(row));
+  }
   return run;
 }
 

@@ -60,7 +60,7 @@ int check_runs(const Options& options) {
 
 struct LayOptions {
   std::string scene;
-  std::filesystem::path series, run, out = "out/lay";
+  std::filesystem::path series, fields, run, out = "out/lay";
   std::string name;
   std::vector<std::string> set;
 };
@@ -70,8 +70,10 @@ int lay_beside(const LayOptions& options, const Paths& paths) {
   const auto directory = options.run.empty() ? paths.runs / options.scene : options.run;
   const LoadedRun ours = load_run(directory, options.scene, scene);
   if (!ours.run) throw std::runtime_error(ours.reason);
-  const std::string name = options.name.empty() ? options.series.stem().string() : options.name;
-  const auto curves = lay(*ours.run, read_their_series(options.series, scene));
+  const Run theirs = options.series.empty() ? read_their_fields(options.fields, scene)
+                                            : read_their_series(options.series, scene);
+  const std::string name = options.name.empty() ? theirs.id : options.name;
+  const auto curves = lay(*ours.run, theirs);
   std::filesystem::create_directories(options.out);
   write_file_atomically(options.out / "lay.json", lay_json(curves, *ours.run, name));
   fmt::print("{}", lay_table(curves, name));
@@ -107,9 +109,11 @@ int main(int argc, char** argv) {
   CLI::App* lay_command =
       app.add_subcommand("lay", "lay a series of others beside a run (compare/lay/README.md)");
   lay_command->add_option("--scene", laid.scene, "case of both, by its name in --cases")->required();
-  lay_command->add_option("--series", laid.series, "their CSV: header 'name [unit]', time [s] or T [-]")
-      ->required()
+  CLI::Option_group* source = lay_command->add_option_group("theirs");
+  source->add_option("--series", laid.series, "their CSV: header 'name [unit]', time [s] or T [-]")
       ->check(CLI::ExistingFile);
+  source->add_option("--fields", laid.fields, "their fields.h5")->check(CLI::ExistingFile);
+  source->require_option(1);
   lay_command->add_option("--name", laid.name, "what to call them (default: the file's name)");
   lay_command->add_option("--run", laid.run, "our run directory (default: SCENE below --runs)");
   lay_command->add_option("--set", laid.set, "overrides our run was made with")->allow_extra_args(false);

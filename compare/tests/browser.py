@@ -14,9 +14,9 @@ def available():
 
 
 class Browser:
-    """One page at a time. `dark` sets the colour scheme that pages see, `size` the window in pixels."""
+    """One page at a time; `size` is the window in pixels."""
 
-    def __init__(self, profile, dark=False, size=(1280, 900)):
+    def __init__(self, profile, size=(1280, 900)):
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -26,7 +26,7 @@ class Browser:
         # --no-sandbox: containers and root have no user namespaces; the page is our own file.
         arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                      f"--user-data-dir={profile}", f"--window-size={size[0]},{size[1]}"]
-        options = {"args": arguments + (["--force-dark-mode"] if dark else []), "binary": shutil.which("chromium")}
+        options = {"args": arguments, "binary": shutil.which("chromium")}
         capabilities = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
         try:
             self.wait_for_driver()

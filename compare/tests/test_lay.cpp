@@ -73,6 +73,11 @@ TEST_F(Lay, BadInputIsNamed) {
   EXPECT_NE(refusal("time [ms],front_dense [m]\n0,1\n").find("expected 's'"), std::string::npos);
 }
 
+TEST_F(Lay, WhatNeitherHasIsLeftOut) {
+  const compare::Run zero = theirs("T [-],run_out [-],f_s_max [-]\n0,0,0\n2,1,0\n");
+  EXPECT_EQ(lay(zero, zero).size(), 1u);
+}
+
 TEST_F(Lay, NothingInCommonIsAnError) {
   EXPECT_THROW(lay(ours_, theirs("time [s],p_base [Pa]\n0,1\n1,2\n")), std::invalid_argument);
   EXPECT_THROW(lay(ours_, theirs("T [-],run_out [-]\n5,1\n6,2\n")), std::invalid_argument);
