@@ -5,6 +5,7 @@
 
 #include "solver/linear/face_operator.hpp"
 #include "solver/linear/flush_denormals.hpp"
+#include "solver/linear/multigrid_rows.hpp"
 #include "solver/linear/rows.hpp"
 
 namespace granvof::linear {
@@ -71,6 +72,7 @@ CoupledSolver::CoupledSolver(const Layout& layout, const Communicator& communica
       layout_(pressure_.layout()),
       zeros_(static_cast<std::size_t>(padded(layout.n[0]))),
       theta_(layout_.size) {
+  for (auto& face : k21_) face = Buffer<float>(layout_.size);
   for (auto* pair : {&r_, &shadow_, &p_, &v_, &t_})
     for (auto& b : *pair) b = doubles(layout_);
   for (auto* pair : {&y_, &w_})
@@ -124,7 +126,7 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
     if (rho == 0.0 || !std::isfinite(rho)) stop = true;
 
     if (!stop) {
-      precondition(system, p_, y_);
+      precondition(p_, y_);
       ++report.iterations;
       const double shadow_v = communicator_.sum(multiply(system, y_, v_, shadow_).with);
       alpha = rho / shadow_v;
@@ -138,7 +140,7 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
       }
     }
     if (!stop) {
-      precondition(system, r_, w_);
+      precondition(r_, w_);
       ++report.iterations;
       Products p = multiply(system, w_, t_, r_);
       p.with = communicator_.sum(p.with);
@@ -170,6 +172,17 @@ void CoupledSolver::set(const CoupledSystem& s) {
   pressure_.set(Faces{s.k11}, s.m11);
   granular_.set(SchurComplement(user_, s));
   const int n = user_.n[0];
+  for (int d = 0; d < 3; ++d) {
+    if (!coupled_[d]) continue;
+    float* to = k21_[d].data();
+    for_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t here = layout_.index(0, j, k);
+      const double* from = s.k21[d] + user_.index(0, j, k);
+#pragma omp simd
+      for (int i = 0; i < n; ++i) to[here + i] = static_cast<float>(from[i]);
+    });
+    if (any_periodic(layout_)) communicator_.exchange(layout_, to);
+  }
   for_rows(layout_, [&](int j, int k) {
     const std::ptrdiff_t here = layout_.index(0, j, k);
     const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
@@ -196,27 +209,21 @@ void CoupledSolver::set(const CoupledSystem& s) {
 }
 
 // One row of the matrix times (v1, v2); each block row apart, as fewer streams suit the registers better.
-template <typename T>
+template <bool X, bool Y, bool Z, typename T>
 void CoupledSolver::product_row(const CoupledSystem& s, const T* v1, const T* v2, int j, int k, double* out1,
                                 double* out2) {
   const std::ptrdiff_t here = layout_.index(0, j, k), given = user_.index(0, j, k);
   const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
-  const int n = user_.n[0];
+  const T *u1 = v1 + here, *u2 = v2 + here;
   const auto block_row = [&](const auto& first, const auto& second, const double* mass, const T* own,
                              double* out) {
     const rows::FaceRow a = rows::face_row(first, user_, j, k, zeros_.data());
     const rows::FaceRow b = rows::face_row(second, user_, j, k, zeros_.data());
-    const T *u1 = v1 + here, *u2 = v2 + here;
-    const T* u = own + here;
-    const double* m = mass + given;
-    double* to = out + here;
-    with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-      rows::face_sums<X, Y, Z>(n, a, u1, b, u2, sy, sz,
-                               [=](int i, double sum) { to[i] = m[i] * u[i] + sum; });
-    });
+    rows::face_sums<X, Y, Z>(user_.n[0], a, u1, b, u2, sy, sz,
+                             [=](int i, double sum) { out[i] = mass[i] * own[i] + sum; });
   };
-  block_row(s.k11, s.k12, s.m11, v1, out1);
-  block_row(s.k21, s.k22, s.m22, v2, out2);
+  block_row(s.k11, s.k12, s.m11 + given, u1, out1 + here);
+  block_row(s.k21, s.k22, s.m22 + given, u2, out2 + here);
 }
 
 CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const double* x1,
@@ -229,8 +236,10 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
              [&](int j, int k) { std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k)); });
     if (any_periodic(layout_)) communicator_.exchange(layout_, to);
   }
-  for_rows(layout_, [&](int j, int k) {
-    product_row(s, t_[0].data(), t_[1].data(), j, k, r_[0].data(), r_[1].data());
+  with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+    for_rows(layout_, [&](int j, int k) {
+      product_row<X, Y, Z>(s, t_[0].data(), t_[1].data(), j, k, r_[0].data(), r_[1].data());
+    });
   });
   Norms norms;
   for (int c = 0; c < 2; ++c) {
@@ -248,7 +257,7 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
   return norms;
 }
 
-void CoupledSolver::precondition(const CoupledSystem& s, const Pair& from, FloatPair& to) {
+void CoupledSolver::precondition(const Pair& from, FloatPair& to) {
   const int n = user_.n[0], width = padded(n);
   const float *scale1 = pressure_.scale(), *scale2 = granular_.scale();
   float *rhs1 = pressure_.residual(), *rhs2 = granular_.residual();
@@ -267,16 +276,13 @@ void CoupledSolver::precondition(const CoupledSystem& s, const Pair& from, Float
     for (std::ptrdiff_t i = row; i < row + width; ++i) y1[i] = scale1[i] * p[i];
   });
   if (any_periodic(layout_)) communicator_.exchange(layout_, y1);
+  const rows::Stencil k21{k21_[0].data(), k21_[1].data(), k21_[2].data(), layout_.stride[1],
+                          layout_.stride[2]};
+  const int length = layout_.periodic[0] ? n : width;  // periodic ghosts of the faces are not 0
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
     for_rows(layout_, [&](int j, int k) {
       const std::ptrdiff_t row = layout_.index(0, j, k);
-      const rows::FaceRow a = rows::face_row(s.k21, user_, j, k, zeros_.data());
-      const double* r = r2 + row;
-      const float* scale = scale2 + row;
-      float* out = rhs2 + row;
-      rows::face_sums<X, Y, Z>(n, a, y1 + row, layout_.stride[1], layout_.stride[2], [=](int i, double sum) {
-        out[i] = scale[i] * static_cast<float>(r[i] - sum);
-      });
+      rows::scaled_difference<X, Y, Z>(length, k21.at(row), r2 + row, y1 + row, scale2 + row, rhs2 + row);
     });
   });
   const float* g = granular_.cycle(granular_smoothing);
@@ -298,31 +304,31 @@ CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPai
   if (any_periodic(layout_))
     for (auto& component : v) communicator_.exchange(layout_, component.data());
   const int n = user_.n[0];
-  Products total;
-  const auto row_products = [&](int j, int k) {
-    product_row(s, v[0].data(), v[1].data(), j, k, out[0].data(), out[1].data());
-    const std::ptrdiff_t row = layout_.index(0, j, k);
-    double a = 0.0, b = 0.0;
-    for (int c = 0; c < 2; ++c) {
-      const double *o = out[c].data() + row, *w = with[c].data() + row;
+  double self = 0.0;  // summed beside the product that sum_rows returns
+  const bool threads = worth_threads(layout_);
+  const double product = with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+    return sum_rows(layout_, [&](int j, int k) {
+      product_row<X, Y, Z>(s, v[0].data(), v[1].data(), j, k, out[0].data(), out[1].data());
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      double a = 0.0, b = 0.0;
+      for (int c = 0; c < 2; ++c) {
+        const double *o = out[c].data() + row, *w = with[c].data() + row;
 #pragma omp simd reduction(+ : a, b)
-      for (int i = 0; i < n; ++i) {
-        a += o[i] * w[i];
-        b += o[i] * o[i];
+        for (int i = 0; i < n; ++i) {
+          a += o[i] * w[i];
+          b += o[i] * o[i];
+        }
       }
-    }
-    return Products{a, b};
-  };
-  const int ny = layout_.n[1], count = ny * layout_.n[2];
-  double a = 0.0, b = 0.0;
-#pragma omp parallel for schedule(static) reduction(+ : a, b) if (worth_threads(layout_))
-  for (int row = 0; row < count; ++row) {
-    const Products line = row_products(row % ny, row / ny);
-    a += line.with;
-    b += line.self;
-  }
-  total = {a, b};
-  return total;
+      if (threads) {
+#pragma omp atomic
+        self += b;
+      } else {
+        self += b;
+      }
+      return a;
+    });
+  });
+  return {product, self};
 }
 
 // r -= factor what; the largest values of r.

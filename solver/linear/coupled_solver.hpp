@@ -54,8 +54,8 @@ class CoupledSolver {
 
   void set(const CoupledSystem& system);
   Norms true_residual(const CoupledSystem& system, const double* x1, const double* x2);
-  void precondition(const CoupledSystem& system, const Pair& from, FloatPair& to);
-  template <typename T>
+  void precondition(const Pair& from, FloatPair& to);
+  template <bool X, bool Y, bool Z, typename T>
   void product_row(const CoupledSystem& system, const T* v1, const T* v2, int j, int k, double* out1,
                    double* out2);
   Products multiply(const CoupledSystem& system, FloatPair& v, Pair& out, const Pair& with);
@@ -70,6 +70,7 @@ class CoupledSolver {
   std::array<bool, 3> coupled_{};
   Buffer<double> zeros_;
   Buffer<float> theta_;
+  std::array<Buffer<float>, 3> k21_;  // periodic ghosts filled
   Pair r_, shadow_, p_, v_, t_;
   FloatPair y_, w_;  // preconditioned p and r
 };

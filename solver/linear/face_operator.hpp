@@ -40,10 +40,12 @@ inline FaceRow face_row(const std::array<const double*, 3>& lower, const Layout&
   return row;
 }
 
+// Forced inline: a call that stays in the loop keeps it from being vectorised.
+//
 // Sum over the faces of cell i of a (x - x_neighbour). v: the values of this row, neighbours sy and sz away.
 template <bool X, bool Y, bool Z, typename T>
-inline double face_sum(const FaceRow& a, double x_upper, const T* v, std::ptrdiff_t i, std::ptrdiff_t sy,
-                       std::ptrdiff_t sz) {
+[[gnu::always_inline]] inline double face_sum(const FaceRow& a, double x_upper, const T* v, std::ptrdiff_t i,
+                                              std::ptrdiff_t sy, std::ptrdiff_t sz) {
   const double own = v[i];
   double sum = 0.0;
   if constexpr (X) sum += a.x[i] * (own - v[i - 1]) + x_upper * (own - v[i + 1]);
@@ -54,8 +56,8 @@ inline double face_sum(const FaceRow& a, double x_upper, const T* v, std::ptrdif
 
 // store(i, sum over the faces of cell i) for the n cells of a row.
 template <bool X, bool Y, bool Z, typename T, typename Store>
-inline void face_sums(int n, const FaceRow& a, const T* v, std::ptrdiff_t sy, std::ptrdiff_t sz,
-                      Store&& store) {
+[[gnu::always_inline]] inline void face_sums(int n, const FaceRow& a, const T* v, std::ptrdiff_t sy,
+                                             std::ptrdiff_t sz, Store&& store) {
   if constexpr (X) {
 #pragma omp simd
     for (int i = 0; i < n - 1; ++i) store(i, face_sum<X, Y, Z>(a, a.x[i + 1], v, i, sy, sz));
@@ -68,8 +70,9 @@ inline void face_sums(int n, const FaceRow& a, const T* v, std::ptrdiff_t sy, st
 
 // The same for the sum of two operators, a on v and b on w.
 template <bool X, bool Y, bool Z, typename T, typename Store>
-inline void face_sums(int n, const FaceRow& a, const T* v, const FaceRow& b, const T* w, std::ptrdiff_t sy,
-                      std::ptrdiff_t sz, Store&& store) {
+[[gnu::always_inline]] inline void face_sums(int n, const FaceRow& a, const T* v, const FaceRow& b,
+                                             const T* w, std::ptrdiff_t sy, std::ptrdiff_t sz,
+                                             Store&& store) {
   if constexpr (X) {
 #pragma omp simd
     for (int i = 0; i < n - 1; ++i)

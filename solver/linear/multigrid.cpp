@@ -264,6 +264,24 @@ void Multigrid::smooth(const Level& l, const float* x, const float* old, float o
   exchange(l.layout, out);
 }
 
+double Multigrid::smooth_and_dot(const Level& l, const float* x, const float* old, float* out,
+                                 Sweep s) const {
+  const float keep = 1.0F + s.momentum - s.step;
+  const rows::Stencil faces = stencil(l.face, l.layout);
+  const float* rhs = l.rhs.data();
+  // A periodic rhs is not 0 in its ghosts, so the product must end with the box.
+  const int width = l.layout.periodic[0] ? l.layout.n[0] : padded(l.layout.n[0]);
+  const double dot = with_directions(l.coupled, [&]<bool X, bool Y, bool Z>() {
+    return sum_rows(l.layout, [&](int j, int k) {
+      const std::ptrdiff_t row = l.layout.index(0, j, k);
+      return rows::sweep_and_dot<X, Y, Z>(width, faces.at(row), rhs + row, x + row, (old ? old : x) + row,
+                                          keep, old ? -s.momentum : 0.0F, s.step, out + row);
+    });
+  });
+  exchange(l.layout, out);
+  return dot;
+}
+
 void Multigrid::restrict_residual(const Level& f, const float* x, Level& c) const {
   const rows::Stencil faces = stencil(f.face, f.layout);
   const int width = padded(f.layout.n[0]);
@@ -352,14 +370,12 @@ float* Multigrid::descend(std::size_t depth, int smoothing, double* dot) {
   restrict_residual(l, x, coarse);
   inject(l, coarse, descend(depth + 1, smoothing, nullptr), x);
   for (int s = 0; s < smoothing; ++s) {
-    smooth(l, x, s == 0 ? nullptr : other, 1.0F, other, sweeps_[s]);
+    const float* old = s == 0 ? nullptr : other;
+    if (dot && s == smoothing - 1)
+      *dot = smooth_and_dot(l, x, old, other, sweeps_[s]);
+    else
+      smooth(l, x, old, 1.0F, other, sweeps_[s]);
     std::swap(x, other);
-  }
-  if (dot) {
-    *dot = sum_rows(l.layout, [&](int j, int k) {
-      const std::ptrdiff_t row = l.layout.index(0, j, k);
-      return rows::dot(l.layout.n[0], rhs + row, x + row);
-    });
   }
   return x;
 }

@@ -82,6 +82,7 @@ class Multigrid {
   void exchange(const Layout& l, float* values) const;
   float* descend(std::size_t depth, int smoothing, double* dot);
   void smooth(const Level& l, const float* x, const float* old, float old_factor, float* out, Sweep s) const;
+  double smooth_and_dot(const Level& l, const float* x, const float* old, float* out, Sweep s) const;
   void restrict_residual(const Level& fine, const float* x, Level& coarse) const;
   void inject(const Level& fine, const Level& coarse, const float* e, float* x) const;
 

@@ -19,7 +19,7 @@ struct Stencil {  // pointers to the first value of a row
 };
 
 template <bool X, bool Y, bool Z>
-inline float neighbours(const Stencil& s, const float* x, std::ptrdiff_t i) {
+[[gnu::always_inline]] inline float neighbours(const Stencil& s, const float* x, std::ptrdiff_t i) {
   float sum = 0.0F;
   if constexpr (X) sum += s.x_face[i] * x[i - 1] + s.x_face[i + 1] * x[i + 1];
   if constexpr (Y) sum += s.y_face[i] * x[i - s.sy] + s.y_face[i + s.sy] * x[i + s.sy];
@@ -60,6 +60,35 @@ inline void weighted_residual(int n, Stencil s, const float* rhs, const float* x
   } else {
 #pragma omp simd
     for (int i = 0; i < n; ++i) sum[i] = weight[i] * (rhs[i] - x[i] + neighbours<X, Y, Z>(s, x, i));
+  }
+}
+
+// The last sweep of a cycle: the same as sweep, and the scalar product of the answer with rhs.
+template <bool X, bool Y, bool Z>
+inline double sweep_and_dot(int n, Stencil s, const float* rhs, const float* x, const float* old, float keep,
+                            float back, float step, float* out) {
+  float line = 0.0F;
+#pragma omp simd reduction(+ : line)
+  for (int i = 0; i < n; ++i) {
+    const float value = keep * x[i] + back * old[i] + step * (rhs[i] + neighbours<X, Y, Z>(s, x, i));
+    out[i] = value;
+    line += value * rhs[i];  // rhs is 0 in padding
+  }
+  return static_cast<double>(line);
+}
+
+// out = scale * (given - sum over faces of a (v - v_neighbour)), faces not scaled
+template <bool X, bool Y, bool Z>
+inline void scaled_difference(int n, Stencil s, const double* given, const float* v, const float* scale,
+                              float* out) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    const float own = v[i];
+    float sum = 0.0F;
+    if constexpr (X) sum += s.x_face[i] * (own - v[i - 1]) + s.x_face[i + 1] * (own - v[i + 1]);
+    if constexpr (Y) sum += s.y_face[i] * (own - v[i - s.sy]) + s.y_face[i + s.sy] * (own - v[i + s.sy]);
+    if constexpr (Z) sum += s.z_face[i] * (own - v[i - s.sz]) + s.z_face[i + s.sz] * (own - v[i + s.sz]);
+    out[i] = scale[i] * (static_cast<float>(given[i]) - sum);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
+#include "solver/linear/flush_denormals.hpp"
 
 namespace granvof::linear {
 
@@ -22,8 +23,12 @@ template <typename Body>
 inline void for_rows(const Layout& l, Body&& body) {
   const int ny = l.n[1], nz = l.n[2];
   if (worth_threads(l)) {
-#pragma omp parallel for schedule(static)
-    for (int row = 0; row < ny * nz; ++row) body(row % ny, row / ny);
+#pragma omp parallel
+    {
+      const FlushDenormals flush;
+#pragma omp for schedule(static)
+      for (int row = 0; row < ny * nz; ++row) body(row % ny, row / ny);
+    }
   } else {
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j) body(j, k);
@@ -36,8 +41,12 @@ inline double sum_rows(const Layout& l, Body&& body) {
   const int ny = l.n[1], nz = l.n[2];
   double total = 0.0;
   if (worth_threads(l)) {
-#pragma omp parallel for schedule(static) reduction(+ : total)
-    for (int row = 0; row < ny * nz; ++row) total += body(row % ny, row / ny);
+#pragma omp parallel reduction(+ : total)
+    {
+      const FlushDenormals flush;
+#pragma omp for schedule(static)
+      for (int row = 0; row < ny * nz; ++row) total += body(row % ny, row / ny);
+    }
   } else {
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j) total += body(j, k);
@@ -52,8 +61,12 @@ inline double max_rows(const Layout& l, Body&& body) {
   double largest = 0.0;
   const auto finite = [](double v) { return v == v ? v : __builtin_inf(); };
   if (worth_threads(l)) {
-#pragma omp parallel for schedule(static) reduction(max : largest)
-    for (int row = 0; row < ny * nz; ++row) largest = std::max(largest, finite(body(row % ny, row / ny)));
+#pragma omp parallel reduction(max : largest)
+    {
+      const FlushDenormals flush;
+#pragma omp for schedule(static)
+      for (int row = 0; row < ny * nz; ++row) largest = std::max(largest, finite(body(row % ny, row / ny)));
+    }
   } else {
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j) largest = std::max(largest, finite(body(j, k)));
