@@ -55,7 +55,7 @@ nightly: setup  ## all stages of the nightly run, with history and trends
 	ci/nightly
 
 bench: setup  ## performance of the parts
-	ci/build release
+	ci/build --benchmarks release
 	ci/bench $(RELEASE)
 
 format:  ## clang-format all C++ sources in place
