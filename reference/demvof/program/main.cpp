@@ -51,7 +51,7 @@ int run(const Arguments& arguments) {
 }
 
 int hash(const Arguments& arguments) {
-  fmt::print("{}\n", granvof::load_scene(arguments.case_file, arguments.overrides).hash);
+  fmt::print("{}\n", granvof::load_scene(arguments.case_file, arguments.overrides).reference_hash);
   return 0;
 }
 
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
   run_command->add_flag("--progress", arguments.record.progress, "Say how far the run is");
 
-  CLI::App* hash_command = app.add_subcommand("hash", "Print the case hash that records carry");
+  CLI::App* hash_command = app.add_subcommand("hash", "Print the hash that records carry: of all that the reference depends on");
   add_case(*hash_command, arguments);
 
   try {

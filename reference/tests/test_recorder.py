@@ -1,0 +1,74 @@
+"""Plan, state and making of records, without running demvof."""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+REFERENCE = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(REFERENCE))
+import recorder  # noqa: E402
+
+RUN = recorder.Run("s1", 2)
+
+
+def finished_run(folder, exit_state="finished"):
+    folder.mkdir()
+    (folder / "series.csv").write_text("time [s]\n0\n1\n")
+    (folder / "run.json").write_text(json.dumps({"case_hash": "solver's", "exit": {"state": exit_state, "reason": "at t = 3"}}))
+    with h5py.File(folder / "fields.h5", "w") as file:
+        file.attrs["scene"] = "s1"
+        for n in range(9):
+            group = file.create_group(f"t{n:04}")
+            group.attrs["time"] = float(n)
+            group["f_s"] = np.full((1, 4, 5), n, dtype="f8")
+    return folder
+
+
+def test_the_plan_names_scenes_that_exist():
+    for run in recorder.read_plan():
+        assert (REFERENCE.parent / f"cases/{run.scene}.toml").exists(), run
+
+
+def test_an_unknown_scene_is_refused_by_name():
+    with pytest.raises(recorder.RecordError, match="no scene 'nowhere'"):
+        recorder.select(recorder.read_plan(), ["nowhere"])
+
+
+def test_missing_stale_and_current(tmp_path):
+    assert recorder.state(RUN, "abc", tmp_path) == "missing"
+    recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
+    assert recorder.state(RUN, "abc", tmp_path) == "current"
+    assert recorder.state(RUN, "another", tmp_path) == "stale"
+
+
+def test_a_record_keeps_four_instants_and_says_where_it_comes_from(tmp_path):
+    folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
+    assert folder == tmp_path / "s1/seed2"
+    with h5py.File(folder / "fields.h5") as file:
+        assert sorted(file) == ["t0000", "t0003", "t0005", "t0008"]
+        assert file["t0005"].attrs["time"] == 5.0
+        assert np.all(file["t0005/f_s"][()] == 5.0)
+    record = json.loads((folder / "record.json").read_text())
+    assert (record["case_hash"], record["seed"], record["gate_closed"]) == ("abc", 2, False)
+    assert set(record["parts"]) == set(recorder.PACKAGES)
+
+
+def test_a_run_that_blew_up_leaves_no_record(tmp_path):
+    with pytest.raises(recorder.RecordError, match="at t = 3"):
+        recorder.make_record(RUN, finished_run(tmp_path / "run", "failed"), "abc", tmp_path)
+    assert recorder.state(RUN, "abc", tmp_path) == "missing"
+
+
+def test_control_runs_are_kept_apart(tmp_path):
+    control = recorder.Run("s1-loose", 1, gate_closed=True)
+    assert control.folder(tmp_path) == tmp_path / "controls/s1-loose/seed1"
+
+
+def test_a_missing_program_is_an_error_that_says_what_to_do(tmp_path):
+    ended = subprocess.run([REFERENCE / "record", "--build-dir", tmp_path], capture_output=True, text=True)
+    assert ended.returncode == 2
+    assert "ci/setup-reference" in ended.stderr
