@@ -119,11 +119,15 @@ void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceFie
     const double production =
         f * mu * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
     const double collisions = closures::collisional_dissipation_rate(f, e, g0, rho_s, d_s);
-    double linear = 3.0 * drag - 3.0 * (1.0 - e * e) * f * f * rho_s * g0 * div[c];
-    if (work) linear += closures::kinetic_pressure(f, 1.0, e, g0, rho_s) * div[c];
+    double expansion = -3.0 * (1.0 - e * e) * f * f * rho_s * g0 * div[c];
+    if (work) expansion += closures::kinetic_pressure(f, 1.0, e, g0, rho_s) * div[c];
+    // A growing term (grains under compression) is taken explicitly, as the work of the old Theta's pressure,
+    // which is the pressure the momentum felt: implicit in w it has a pole near div u_s dt = -3 and creates
+    // energy.
     const double inertia = steady ? 0.0 : 3.0 * f * rho_s / dt;
-    const double w =
-        closures::positive_root(collisions, inertia + linear, production + inertia * std::sqrt(t[c]));
+    const double growth = std::fmax(-expansion, 0.0), decay = 3.0 * drag + std::fmax(expansion, 0.0);
+    const double w_start = steady ? 0.0 : std::sqrt(t[c] * (1.0 + 2.0 * growth / inertia));
+    const double w = closures::positive_root(collisions, inertia + decay, production + inertia * w_start);
     t[c] = w * w;
   });
 }
