@@ -21,10 +21,13 @@ enum class Relation { equal, at_most, at_least };
 
 // Parameters of a metric; which of them it takes stands in the registry (checks/registry.hpp).
 struct Parameters {
-  std::optional<Window> window;        // of time [s], or of T where the metric says so
-  std::optional<double> at;            // an instant, t [s] or T
-  std::optional<double> quiet;         // magnitude below which a signal counts as none
-  std::optional<std::string> against;  // id of a second run
+  std::optional<Window> window;          // of time [s], or of T where the metric says so
+  std::optional<double> at;              // an instant, t [s] or T
+  std::optional<double> quiet;           // magnitude below which a signal counts as none
+  std::optional<double> level;           // of f_s
+  std::optional<std::string> published;  // file in cases/published, and
+  std::optional<std::string> column;     // the column of it that the metric is compared with
+  std::optional<std::string> against;    // id of a second run
 };
 
 struct Reference {

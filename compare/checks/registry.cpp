@@ -82,6 +82,14 @@ Measured immersed_share_cells(const Run& run, const Parameters& p, const FindRun
   return immersed_share_of(run, p, "y_c", "bed_height");
 }
 
+// As the paper's, with the free surface beside the bed.
+Measured immersed_share_free(const Run& run, const Parameters& p, const FindRun&) {
+  const auto found =
+      immersion(run.curve("y_c"), run.curve("bed_height"), run.curve("interface_height_outside"), *p.window);
+  return measured(found ? std::optional(found->share()) : std::nullopt,
+                  "the bed has not compacted in the window");
+}
+
 // From all solids and their height at the packing of the dense rows: the same for a bed that holds together,
 // and free of the threshold.
 Measured immersed_share(const Run& run, const Parameters& p, const FindRun&) {
@@ -100,6 +108,20 @@ Measured decay_rate(const Run& run, const Parameters& p, const FindRun&) {
   const auto rest = time_mean(clip(height, {0.9 * height.time.back(), height.time.back()}));
   if (!rest) return {std::nullopt, "undefined: the run is too short"};
   return measured(approach_rate(height, *p.window, *rest), "the curve does not decay in the window");
+}
+
+// --- against published series ---------------------------------------------------------------------------
+
+Measured dam_break_distance(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(
+      rms_distance(scaled_liquid_front(run), published_curve(run, *p.published, *p.column), *p.window),
+      "the two curves do not cover the window");
+}
+
+Measured solid_level_distance(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(rms_distance(solid_level_curve(run, *p.level),
+                               published_curve(run, *p.published, *p.column), *p.window),
+                  "the two curves do not cover the window");
 }
 
 // --- volumes, bounds, speeds, cost ---------------------------------------------------------------------
@@ -170,11 +192,19 @@ constexpr std::array table{
                 window_only, immersed_share},
     MetricEntry{"immersed_share_cells", "-", "h/H of the cells with f_s > 0.95 f_s,min, eq (27), time means",
                 window_only, immersed_share_cells},
+    MetricEntry{"immersed_share_free", "-",
+                "h/H of the cells with f_s > 0.95 f_s,min against the surface beside the bed", window_only,
+                immersed_share_free},
     MetricEntry{"period", "s", "period of the height of all solids, from crossings of its mean", window_only,
                 period},
     MetricEntry{"decay_rate", "1/s",
                 "k of y = rest + A exp(-k t), y the height of all solids, rest its late mean", window_only,
                 decay_rate},
+    MetricEntry{"dam_break_distance", "-", "rms over tau of the water front x/a against a published one",
+                Needs{.window = true, .published = true}, dam_break_distance},
+    MetricEntry{"solid_level_distance", "m",
+                "rms over t of the height of a level of f_s against a published one",
+                Needs{.window = true, .level = true, .published = true}, solid_level_distance},
     MetricEntry{"solid_volume_error", "-", "largest relative change of the solid volume", none,
                 solid_volume_error},
     MetricEntry{"liquid_volume_error", "-", "largest relative change of the liquid volume", none,

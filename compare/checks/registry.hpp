@@ -25,6 +25,8 @@ struct Needs {
   bool window = false;
   bool at = false;
   bool quiet = false;
+  bool level = false;
+  bool published = false;  // file and column
   bool against = false;
 };
 

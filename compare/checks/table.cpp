@@ -145,6 +145,9 @@ Parameters read_parameters(const Entry& check, const MetricEntry& metric) {
   if (need(metric.needs.window, "window")) parameters.window = check.window("window");
   if (need(metric.needs.at, "at")) parameters.at = check.number("at");
   if (need(metric.needs.quiet, "quiet")) parameters.quiet = check.non_negative("quiet");
+  if (need(metric.needs.level, "level")) parameters.level = check.number("level");
+  if (need(metric.needs.published, "published")) parameters.published = check.text("published");
+  if (need(metric.needs.published, "column")) parameters.column = check.text("column");
   if (need(metric.needs.against, "against")) parameters.against = check.text("against");
   return parameters;
 }
@@ -202,13 +205,15 @@ std::string id_of(const Check& check) {
   std::string id = fmt::format("{}.{}", check.run, check.metric);
   if (check.parameters.at) id += fmt::format("@{}", *check.parameters.at);
   if (check.parameters.against) id += fmt::format("-{}", *check.parameters.against);
+  if (check.parameters.column) id += fmt::format("-{}", *check.parameters.column);
   if (!check.label.empty()) id += fmt::format(".{}", check.label);
   return id + fmt::format(".{}", name_of(check.reference.kind));
 }
 
 std::vector<Check> read_check(const Entry& entry) {
-  entry.allow_only({"run", "metric", "window", "at", "quiet", "against", "reference", "relation", "tolerance",
-                    "asserted", "frequency", "expected_failure", "label"});
+  entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
+                    "reference", "relation", "tolerance", "asserted", "frequency", "expected_failure",
+                    "label"});
   Check check;
   check.line = entry.line();
   check.metric = entry.text("metric");

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "compare/input/published.hpp"
 #include "compare/metrics/base_pressure.hpp"
+#include "compare/metrics/dam_break.hpp"
+#include "compare/metrics/solid_level.hpp"
+#include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
 ColumnSize column_of(const Scene& scene) {
@@ -34,6 +38,29 @@ std::optional<DepositShape> deposit_at(const Run& run, double scaled_time) {
   if (!fields) return std::nullopt;
   return deposit_shape(
       bed_profile(fields->f_s, fields->cells, fields->spacing, run.scene.contact.solid_fraction_min));
+}
+
+Curve scaled_liquid_front(const Run& run) {
+  if (run.scene.liquid_boxes.empty()) return {};
+  const Box& box = run.scene.liquid_boxes.front();
+  return dam_break_front(run.curve("liquid_front"), box.upper[0] - box.lower[0], run.scene.gravity, 0.175);
+}
+
+Curve solid_level_curve(const Run& run, double level) {
+  Curve curve;
+  const std::size_t instants = run.field_times().size();
+  for (std::size_t i = 0; i < instants; ++i) {
+    const CellFields fields = read_fields(run.directory / "fields.h5", i);
+    const auto height = solid_level(fields.f_s, fields.cells, fields.spacing[1], level);
+    if (!height) continue;
+    curve.time.push_back(fields.time);
+    curve.value.push_back(*height);
+  }
+  return curve;
+}
+
+Curve published_curve(const Run& run, const std::string& file, const std::string& column) {
+  return read_published(run.scene.file.parent_path() / "published" / file, column);
 }
 
 }  // namespace granvof::compare

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "compare/input/run.hpp"
 #include "compare/metrics/deposit_shape.hpp"
@@ -24,5 +25,15 @@ double base_pressure_at_rest(const Scene& scene);
 
 // The deposit at T; nothing if the run wrote no fields then, or the scene has no bed.
 std::optional<DepositShape> deposit_at(const Run& run, double scaled_time);
+
+// Front of a water column, x / a against tau (Martin & Moyce), a the length of the first box of liquid; their
+// tau starts 0.175 before the motion.
+Curve scaled_liquid_front(const Run& run);
+
+// Height of a level of f_s [m] against t [s], from the run's fields.
+Curve solid_level_curve(const Run& run, double level);
+
+// A series of cases/published, found beside the run's case file. Throws OutputError.
+Curve published_curve(const Run& run, const std::string& file, const std::string& column);
 
 }  // namespace granvof::compare

@@ -92,13 +92,16 @@ Curve Run::curve(std::string_view column) const {
   return curve;
 }
 
-std::optional<CellFields> Run::fields_at(double time) const {
+std::vector<double> Run::field_times() const {
   const auto file = directory / "fields.h5";
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  const auto times = read_field_times(file);
+  return std::filesystem::exists(file) ? read_field_times(file) : std::vector<double>();
+}
+
+std::optional<CellFields> Run::fields_at(double time) const {
+  const auto times = field_times();
   for (std::size_t i = 0; i < times.size(); ++i)
     if (std::abs(times[i] - time) <= 1e-6 * std::max(scene.times.end, std::abs(time)))
-      return read_fields(file, i);
+      return read_fields(directory / "fields.h5", i);
   return std::nullopt;
 }
 

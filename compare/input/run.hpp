@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compare/metrics/curve.hpp"
 #include "solver/output/cell_fields.hpp"
@@ -33,6 +34,8 @@ struct Run {
 
   // The defined samples of a column against time [s]; empty if there is no such column.
   Curve curve(std::string_view column) const;
+  // Times [s] of the instants in fields.h5; empty without one.
+  std::vector<double> field_times() const;
   // The fields of the instant `time` [s], if the run wrote one within 1e-6 of its length.
   std::optional<CellFields> fields_at(double time) const;
 };

@@ -29,6 +29,7 @@ std::string metric_label(const Check& check) {
   std::string label = check.metric;
   if (check.parameters.at) label += fmt::format("@{}", *check.parameters.at);
   if (check.parameters.against) label += fmt::format("-{}", *check.parameters.against);
+  if (check.parameters.column) label += fmt::format("-{}", *check.parameters.column);
   if (!check.label.empty()) label += fmt::format(" ({})", check.label);
   return label;
 }
