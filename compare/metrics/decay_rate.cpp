@@ -32,6 +32,15 @@ std::optional<double> approach_rate(const Curve& curve, Window window, double re
   return -slope(inside.time, log_deviation);
 }
 
+Curve resolved_part(const Curve& curve, double rest, double least) {
+  Curve part;
+  for (std::size_t i = 0; i < curve.size() && std::abs(curve.value[i] - rest) >= least; ++i) {
+    part.time.push_back(curve.time[i]);
+    part.value.push_back(curve.value[i]);
+  }
+  return part;
+}
+
 std::optional<double> envelope_decay_rate(const Curve& curve, Window window) {
   const Curve inside = clip(curve, window);
   const auto mean = time_mean(inside);

@@ -10,6 +10,9 @@ namespace granvof::compare {
 // window: what is left of it there is not a decay.
 std::optional<double> approach_rate(const Curve& curve, Window window, double rest);
 
+// The samples before the deviation from `rest` first falls below `least`.
+Curve resolved_part(const Curve& curve, double rest, double least);
+
 // Oscillation: least squares of log |deviation from the mean| through the extremes of each half cycle.
 std::optional<double> envelope_decay_rate(const Curve& curve, Window window);
 

@@ -71,6 +71,17 @@ TEST(DecayRate, OfAnExponentialApproachFromEitherSide) {
   }
 }
 
+TEST(DecayRate, IsTakenWhereTheMotionIsResolved) {
+  // Twice as fast once the deviation is below 0.01.
+  const double change = std::log(5.0);
+  const Curve curve = sampled(4.0, 4000, [&](double t) {
+    return t < change ? 0.05 * std::exp(-t) : 0.01 * std::exp(-2.0 * (t - change));
+  });
+  EXPECT_NEAR(*approach_rate(resolved_part(curve, 0.0, 0.01), {0.0, 4.0}, 0.0), 1.0, 1e-9);
+  EXPECT_GT(*approach_rate(curve, {0.0, 4.0}, 0.0), 1.3);
+  EXPECT_TRUE(resolved_part(curve, 0.0, 0.06).empty());
+}
+
 TEST(DecayRate, IsUndefinedWhereTheDeviationChangesSign) {
   const Curve curve = sampled(4.0, 400, [](double t) { return std::exp(-t); });
   EXPECT_FALSE(approach_rate(curve, {0.0, 2.0}, 0.5));
