@@ -1,10 +1,9 @@
 // Memory of the linear solvers: rows padded to whole vectors and aligned to cache lines.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <new>
 
@@ -18,23 +17,22 @@ inline int padded(int n) {
   return (n + lanes - 1) / lanes * lanes;
 }
 
-// Zero-initialised values on a cache line; rows of different buffers start at different cache sets.
+// Zero-initialised values, the first on a cache line.
 template <typename T>
 class Buffer {
  public:
   Buffer() = default;
   explicit Buffer(std::size_t size) {
-    const std::size_t bytes = (size * sizeof(T) + 63) / 64 * 64;
-    data_.reset(static_cast<T*>(std::aligned_alloc(64, bytes)));
-    if (!data_) throw std::bad_alloc();
-    std::memset(static_cast<void*>(data_.get()), 0, bytes);
+    data_.reset(static_cast<T*>(::operator new(size * sizeof(T), cache_line)));
+    std::fill_n(data_.get(), size, T{});
   }
   T* data() { return data_.get(); }
   const T* data() const { return data_.get(); }
 
  private:
+  static constexpr std::align_val_t cache_line{64};
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    void operator()(T* p) const { ::operator delete(p, cache_line); }
   };
   std::unique_ptr<T, Free> data_;
 };

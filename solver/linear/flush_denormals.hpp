@@ -27,7 +27,9 @@ class FlushDenormals {
   ~FlushDenormals() {}
 #endif
   FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals(FlushDenormals&&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(FlushDenormals&&) = delete;
 };
 
 }  // namespace granvof::linear

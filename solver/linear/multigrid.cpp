@@ -97,20 +97,20 @@ void Multigrid::set(const Faces& faces, const double* mass) {
   set(GivenCoefficients(user_, faces, mass));
 }
 
-void Multigrid::set(const Coefficients& given) {
+void Multigrid::set(const Coefficients& coefficients) {
   std::array<bool, 3> coupled{};
-  for (int d = 0; d < 3; ++d) coupled[d] = given.coupled(d) && user_.n[d] > 1;
+  for (int d = 0; d < 3; ++d) coupled[d] = coefficients.coupled(d) && user_.n[d] > 1;
   if (coupled != levels_.front().coupled) build(coupled);
 
   Level& finest = levels_.front();
   for_rows(finest.layout, [&](int j, int k) {
     const std::ptrdiff_t row = finest.layout.index(0, j, k);
-    given.masses(j, k, finest.mass.data() + row);
+    coefficients.masses(j, k, finest.mass.data() + row);
     const std::array<int, 3> position{0, j, k};
     for (int d = 0; d < 3; ++d) {
       if (!finest.coupled[d]) continue;
       float* face = finest.face[d].data() + row;
-      given.faces(d, j, k, face);
+      coefficients.faces(d, j, k, face);
       if (!finest.layout.periodic[d] && position[d] == 0) std::fill_n(face, d == 0 ? 1 : user_.n[0], 0.0F);
     }
   });
@@ -148,26 +148,23 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) const {
       for (int b = 0; b < nz; ++b)
         for (int a = 0; a < ny; ++a) {
           const float* row = from + lf.index(0, ratio[1] * j + a, ratio[2] * k + b);
-          const bool first = a == 0 && b == 0;
-          const float keep = first ? 0.0F : 1.0F;
-          if (ratio[0] == 1) {
+          if (a == 0 && b == 0) std::fill_n(to, n, 0.0F);
+          if (ratio[0] == 1 || single) {
+            const int step = ratio[0];
 #pragma omp simd
-            for (int i = 0; i < n; ++i) to[i] = keep * to[i] + factor * row[i];
-          } else if (single) {
-#pragma omp simd
-            for (int i = 0; i < n; ++i) to[i] = keep * to[i] + factor * row[2 * i];
+            for (int i = 0; i < n; ++i) to[i] += factor * row[step * i];
           } else {
             const int whole = lf.n[0] / 2;
 #pragma omp simd
-            for (int i = 0; i < whole; ++i) to[i] = keep * to[i] + factor * (row[2 * i] + row[2 * i + 1]);
-            if (whole < n) to[whole] = keep * to[whole] + factor * row[2 * whole];
+            for (int i = 0; i < whole; ++i) to[i] += factor * (row[2 * i] + row[2 * i + 1]);
+            if (whole < n) to[whole] += factor * row[2 * whole];
           }
         }
     };
     gather(fine.mass.data(), coarse.mass.data() + out, rows_y, rows_z, false, 1.0F);
     if (coarse.coupled[0]) {
       float* face = coarse.face[0].data() + out;
-      const float regular = static_cast<float>(ratio[0]);
+      const auto regular = static_cast<float>(ratio[0]);
       gather(fine.face[0].data(), face, rows_y, rows_z, true, 1.0F / regular);
       for (const int end : {0, lc.n[0] - 1}) face[end] *= regular / distance(0, end);
     }

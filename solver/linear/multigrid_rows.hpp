@@ -54,12 +54,10 @@ inline void sweep_without_old(int n, Stencil s, const float* rhs, const float* x
 template <bool X, bool Y, bool Z>
 inline void weighted_residual(int n, Stencil s, const float* rhs, const float* x, const float* weight,
                               bool add, float* __restrict sum) {
-  if (add) {
 #pragma omp simd
-    for (int i = 0; i < n; ++i) sum[i] += weight[i] * (rhs[i] - x[i] + neighbours<X, Y, Z>(s, x, i));
-  } else {
-#pragma omp simd
-    for (int i = 0; i < n; ++i) sum[i] = weight[i] * (rhs[i] - x[i] + neighbours<X, Y, Z>(s, x, i));
+  for (int i = 0; i < n; ++i) {
+    const float value = weight[i] * (rhs[i] - x[i] + neighbours<X, Y, Z>(s, x, i));
+    sum[i] = add ? sum[i] + value : value;
   }
 }
 

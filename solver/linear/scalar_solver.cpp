@@ -111,7 +111,7 @@ double ScalarSolver::multiply(const Faces& faces, const double* mass) {
 // p = z + beta p, where z comes scaled from multigrid.
 void ScalarSolver::combine(const float* z, double beta) {
   const FlushDenormals flush;
-  const float b = static_cast<float>(beta);
+  const auto b = static_cast<float>(beta);
   const int width = padded(layout_.n[0]);
   for_rows(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
