@@ -11,9 +11,10 @@ namespace granvof::closures {
 template <typename Law>
 double point_on_law(Law&& law, double f_line, double p_line, double compliance) {
   const auto off = [&](double f) { return (f - f_line) + compliance * (law(f).value - p_line); };
+  constexpr double close_enough = 1e-9;  // `off` rises at least as fast as f: the root is no further away
   // P >= 0: the root is not above f_line + compliance p_line, and not below it less compliance P there.
   double high = std::clamp(f_line + compliance * p_line, 0.0, 0.9), off_high = off(high);
-  if (off_high <= 0.0) return high;
+  if (off_high <= close_enough) return high;
   double low = std::clamp(std::min(f_line, high), 0.0, 0.9), off_low = off(low);
   if (off_low >= 0.0) {
     high = low;
@@ -26,7 +27,7 @@ double point_on_law(Law&& law, double f_line, double p_line, double compliance) 
     double f = high - off_high * (high - low) / (off_high - off_low);
     if (iteration % 3 == 2) f = 0.5 * (low + high);  // the law is steep: do not let one end stick
     const double there = off(f);
-    if (there == 0.0) return f;
+    if (std::fabs(there) <= close_enough) return f;
     if (there > 0.0) {
       high = f;
       off_high = there;

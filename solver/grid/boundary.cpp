@@ -50,17 +50,26 @@ void Boundary::fill_velocity(FaceField& u, Phase phase) const {
   for (int d = 0; d < grid_.dim; ++d) {
     if (l.periodic[d]) continue;
     const std::ptrdiff_t s = l.stride[d];
+    const auto is_open = [&](int upper) {
+      return sides_[2 * d + upper].kind == SideKind::open && phase == Phase::fluid;
+    };
+    // Both closed faces first, then the upper ghosts: with one cell between the sides the lower ones mirror
+    // those.
     for (int upper = 0; upper < 2; ++upper) {
+      if (is_open(upper)) continue;
+      const std::ptrdiff_t face = upper ? l.n[d] * s : 0;
+      for_side(l, d, [&](std::ptrdiff_t line) { u[d][line + face] = 0.0; });
+    }
+    for (int upper = 1; upper >= 0; --upper) {
       const Side& side = sides_[2 * d + upper];
       const PhaseWall& wall = phase == Phase::fluid ? side.fluid : side.solid;
-      const bool open = side.kind == SideKind::open && phase == Phase::fluid;
+      const bool open = is_open(upper);
       for (int c = 0; c < grid_.dim; ++c) {
         Field& v = u[c];
         if (c == d) {
-          // face on the side, and the faces beyond it
+          // the faces beyond the side
           const std::ptrdiff_t face = upper ? l.n[d] * s : 0, out = upper ? s : -s;
           for_side(l, d, [&](std::ptrdiff_t line) {
-            if (!open) v[line + face] = 0.0;
             v[line + face + out] = open ? v[line + face] : -v[line + face - out];
             if (!upper) v[line + face + 2 * out] = -v[line + face - 2 * out];
           });

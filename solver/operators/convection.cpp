@@ -1,5 +1,7 @@
 #include "solver/operators/convection.hpp"
 
+#include <algorithm>
+
 #include "solver/operators/limiter.hpp"
 
 namespace granvof {
@@ -18,7 +20,7 @@ inline double limited_difference(const double* v, std::ptrdiff_t c, std::ptrdiff
     return back + 0.5 * van_leer(back, ahead) - 0.5 * van_leer(further, back);
   }
   const double further = v[c + 2 * s] - v[c + s];
-  return ahead - 0.5 * van_leer(back, ahead) + 0.5 * van_leer(ahead, further);
+  return ahead + 0.5 * van_leer(back, ahead) - 0.5 * van_leer(ahead, further);
 }
 
 template <typename Difference>
@@ -32,10 +34,17 @@ void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces,
     const double inv_h = 1.0 / grid.h[e];
     const double* carrier = u[e].data();
     if (e == d) {
-      for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-        const double w = carrier[c];
-        out[c] -= w * inv_h * difference(v, c, s, w);
-      });
+      const auto along = [&](const Range& r, auto difference_along) {
+        for_each(grid.cells, r, [=](std::ptrdiff_t c) {
+          const double w = carrier[c];
+          out[c] -= w * inv_h * difference_along(v, c, s, w);
+        });
+      };
+      Range inside = faces, last = faces;
+      inside.upper[d] = std::min(faces.upper[d], grid.cells.n[d]);
+      last.lower[d] = inside.upper[d];
+      along(inside, difference);
+      along(last, upwind_difference);  // an open top: the ghosts end one face beyond it
     } else {
       // the carrier component, averaged to the face of d
       for_each(grid.cells, faces, [=](std::ptrdiff_t c) {

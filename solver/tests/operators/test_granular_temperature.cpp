@@ -1,0 +1,208 @@
+// Granular temperature: cooling, the steady balance of simple shear, and states it must survive.
+#include <gtest/gtest.h>
+
+#include "solver/closures/radial_distribution.hpp"
+#include "solver/operators/granular_temperature.hpp"
+#include "solver/tests/operators/tank.hpp"
+
+namespace granvof {
+namespace {
+
+using test::make_periodic;
+using test::Tank;
+using test::unit_scene;
+
+// Grains at uniform f_s under a uniform velocity gradient, restitution e0 (fluids without viscosity).
+struct Gas {
+  explicit Gas(const Scene& given, double f_s_value, double theta_value)
+      : s(given),
+        f_s(s.grid, f_s_value),
+        theta(s.grid, theta_value),
+        next(s.grid),
+        beta(s.grid),
+        flux(s.grid),
+        rheology(s.grid),
+        strain(s.grid),
+        temperature(s.grid, s.scene, s.boundary, s.communicator) {}
+  static Scene scene(double e0) {
+    Scene scene = unit_scene(2, 4);
+    for (int d : {0, 1}) make_periodic(scene, d);
+    scene.solid = {2500.0, 1e-3, e0, 0.4};
+    scene.gas.viscosity = scene.liquid.viscosity = 0.0;
+    return scene;
+  }
+  void deform(double shear, double stretch) {
+    strain.update(s.grid,
+                  s.faces({[=](const Vec3& x) { return stretch * x[0] + shear * x[1]; },
+                           [=](const Vec3& x) { return stretch * x[1]; }, [](const Vec3&) { return 0.0; }}));
+  }
+  // f_s stays as it is: what the local balance does to Theta alone.
+  void advance(double dt) {
+    rheology.update(s.grid, s.scene, s.boundary, f_s, theta, Field(s.grid, 1.0));
+    temperature.advance(dt, theta, f_s, f_s, flux, beta, rheology, strain, next);
+    std::swap(theta, next);
+    s.boundary.fill_scalar(theta);
+  }
+  double value() const {
+    EXPECT_NEAR(s.smallest(theta), s.largest(theta), 1e-6 * s.largest(theta));
+    return theta[s.grid.cells.index(1, 1, 0)];
+  }
+  Tank s;
+  Field f_s, theta, next;
+  FaceField beta, flux;
+  Rheology rheology;
+  StrainRate strain;
+  GranularTemperature temperature;
+};
+
+// Haff's law, from (23): Theta = Theta0 / (1 + t / tau)^2, 1 / tau = 4 (1 - e^2) f g0 sqrt(Theta0) / (d
+// sqrt(pi)).
+TEST(GranularTemperature, CoolsByHaffsLaw) {
+  const double f = 0.3, e = 0.8, theta0 = 0.01, d = 1e-3;
+  const double g0 = (1.0 - 7.0 / 16.0 * f) / std::pow(1.0 - f / 0.63, 2);
+  const double tau = d * std::sqrt(M_PI) / (4.0 * (1.0 - e * e) * f * g0 * std::sqrt(theta0));
+  const auto error = [&](int steps) {
+    Gas gas(Gas::scene(e), f, theta0);
+    for (int i = 0; i < steps; ++i) gas.advance(5.0 * tau / steps);
+    return gas.value() / (theta0 / 36.0) - 1.0;  // after 5 tau
+  };
+  const double coarse = error(50), fine = error(100);
+  RecordProperty("error_at_tau_10", std::to_string(coarse));
+  EXPECT_LT(std::fabs(fine), 0.06);
+  EXPECT_NEAR(coarse / fine, 2.0, 0.15);  // first order in time
+}
+
+// Production against collisions in simple shear of rate G: Theta = d^2 G^2 / (15 (1 - e)) (model, correction
+// 3).
+TEST(GranularTemperature, SteadySimpleShear) {
+  const double e = 0.9, d = 1e-3, shear = 20.0;
+  const double steady = d * d * shear * shear / (15.0 * (1.0 - e));
+  for (double f : {0.1, 0.55}) {
+    Scene scene = Gas::scene(e);
+    scene.model.granular_temperature = TemperatureModel::algebraic;
+    Gas algebraic(scene, f, 0.0);
+    algebraic.deform(shear, 0.0);
+    algebraic.advance(1e-3);
+    EXPECT_NEAR(algebraic.value(), steady, 1e-9 * steady);
+
+    Gas transported(Gas::scene(e), f, 0.0);  // from nothing, no seed
+    transported.deform(shear, 0.0);
+    double last = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      transported.advance(0.05);
+      EXPECT_GE(transported.value(), last * (1.0 - 1e-6));  // up to its limit
+      last = transported.value();
+    }
+    EXPECT_NEAR(last, steady, 1e-5 * steady);
+  }
+}
+
+TEST(GranularTemperature, OffStaysZero) {
+  Scene scene = Gas::scene(0.9);
+  scene.model.granular_temperature = TemperatureModel::off;
+  Gas gas(scene, 0.4, 0.0);
+  gas.deform(50.0, 0.0);
+  gas.advance(0.01);
+  EXPECT_EQ(gas.value(), 0.0);
+}
+
+// Elastic grains (no collisional loss, and so small that viscous heating vanishes) under compression:
+// d(sqrt Theta)/dt = -(1 + 4 f g0) / 3 div u sqrt(Theta). No step, however large, may overshoot that
+// exponential (a growth term taken implicitly has a pole) or fall below what it started from.
+TEST(GranularTemperature, CompressionHeatsNoMoreThanItsWork) {
+  const double theta0 = 1e-4, dt = 1e-3;
+  for (double f : {2e-3, 0.05, 0.3, 0.55})
+    for (double strain : {0.01, 0.5, 1.0, 2.0, 2.9, 3.0, 3.1, 10.0}) {  // -div u dt
+      Scene scene = Gas::scene(1.0);
+      scene.solid.diameter = 1e-12;
+      Gas gas(scene, f, theta0);
+      gas.deform(0.0, -0.5 * strain / dt);
+      gas.advance(dt);
+      const double growth = strain * (1.0 + 4.0 * f * closures::radial_distribution(f, 0.63)) / 3.0;
+      EXPECT_GT(gas.value(), theta0 * (1.0 + 1.9 * growth)) << f << ' ' << strain;
+      EXPECT_LT(gas.value(), theta0 * std::exp(2.0 * growth) * (1.0 + 1e-6)) << f << ' ' << strain;
+    }
+}
+
+TEST(GranularTemperature, PressureWorkIsASwitch) {
+  Scene scene = Gas::scene(0.9);
+  scene.model.pressure_work = false;
+  Gas without(scene, 0.3, 1e-4), with(Gas::scene(0.9), 0.3, 1e-4);
+  for (Gas* gas : {&without, &with}) {
+    gas->deform(0.0, -5.0);
+    gas->advance(1e-2);
+  }
+  EXPECT_GT(with.value(), 1.05 * without.value());
+}
+
+TEST(GranularTemperature, ExpansionCoolsToZeroAtMost) {
+  for (double strain : {0.1, 3.0, 100.0}) {
+    Gas gas(Gas::scene(0.9), 0.3, 1e-4);
+    gas.deform(0.0, 0.5 * strain / 1e-3);
+    gas.advance(1e-3);
+    EXPECT_GE(gas.value(), 0.0);
+    EXPECT_TRUE(std::isfinite(gas.value()));
+  }
+}
+
+TEST(GranularTemperature, DragDampsIt) {
+  Gas gas(Gas::scene(1.0), 0.3, 1e-4);  // elastic: drag alone, d(ln Theta)/dt = -2 beta / (f rho)
+  const double beta = 5e4, dt = 1e-5;
+  for (int d : {0, 1}) gas.beta[d].fill(beta);
+  for (int i = 0; i < 100; ++i) gas.advance(dt);
+  EXPECT_NEAR(gas.value(), 1e-4 * std::exp(-2.0 * beta / (0.3 * 2500.0) * 1e-3), 0.001 * 1e-4);
+}
+
+TEST(GranularTemperature, NoneWhereGrainsAreTooFewToCollide) {
+  Gas gas(Gas::scene(0.9), 9e-4, 1e-2);
+  gas.deform(100.0, -100.0);
+  gas.advance(1e-3);
+  EXPECT_EQ(gas.value(), 0.0);
+}
+
+TEST(GranularTemperature, IsCarriedAndConductedWithoutNewExtremes) {
+  Gas gas(Gas::scene(1.0), 0.4, 0.0);  // elastic, no strain: f Theta is conserved
+  gas.theta = gas.s.cells([](const Vec3& x) { return x[0] < 0.5 ? 1e-2 : 1e-4; });
+  gas.s.boundary.fill_scalar(gas.theta);
+  gas.flux[0].fill(0.4 * 0.3);
+  const double before = gas.s.total(gas.theta);
+  for (int i = 0; i < 20; ++i) {
+    gas.advance(0.1);
+    EXPECT_GE(gas.s.smallest(gas.theta), 1e-4 * (1.0 - 1e-6));
+    EXPECT_LE(gas.s.largest(gas.theta), 1e-2 * (1.0 + 1e-6));
+  }
+  EXPECT_NEAR(gas.s.total(gas.theta), before, 1e-3 * before);  // the conduction solve's tolerance
+  EXPECT_LT(gas.s.largest(gas.theta), 0.9e-2);
+}
+
+TEST(GranularTemperature, SurvivesRandomStates) {
+  for (int dim : {2, 3})
+    for (int round = 0; round < 20; ++round) {
+      Scene scene = unit_scene(dim, 6);
+      scene.sides[top].kind = SideKind::open;
+      Tank s(scene);
+      Field f = s.random_cells(-0.2, 0.64), theta = s.random_cells(-0.1, 0.3), next(s.grid);
+      s.each_cell([&](int, int, int, std::ptrdiff_t c) {
+        f[c] = std::fmax(f[c], 0.0);
+        theta[c] = std::fmax(theta[c], 0.0);
+      });
+      s.boundary.fill_scalar(f, 0.0);
+      s.boundary.fill_scalar(theta);
+      Rheology rheology(s.grid);
+      rheology.update(s.grid, s.scene, s.boundary, f, theta, Field(s.grid, 1.0));
+      FaceField u = s.random_faces(-30.0, 30.0);
+      s.boundary.fill_velocity(u, Phase::solid);
+      StrainRate strain(s.grid);
+      strain.update(s.grid, u);
+      GranularTemperature temperature(s.grid, s.scene, s.boundary, s.communicator);
+      temperature.advance(1e-3, theta, f, f, FaceField(s.grid), s.random_faces(0.0, 1e5), rheology, strain,
+                          next);
+      s.each_cell([&](int, int, int, std::ptrdiff_t c) {
+        ASSERT_TRUE(std::isfinite(next[c]));
+        ASSERT_GE(next[c], 0.0);
+      });
+    }
+}
+
+}  // namespace
+}  // namespace granvof

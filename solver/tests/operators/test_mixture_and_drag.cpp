@@ -1,0 +1,90 @@
+// Inertia of both phases and the drag coefficient on faces, against the closures on known states.
+#include <gtest/gtest.h>
+
+#include "solver/closures/drag.hpp"
+#include "solver/operators/interphase_drag.hpp"
+#include "solver/tests/operators/tank.hpp"
+
+namespace granvof {
+namespace {
+
+using test::Tank;
+using test::unit_scene;
+
+std::array<Tank::Function, 3> constant(double a, double b, double c) {
+  return {[=](const Vec3&) { return a; }, [=](const Vec3&) { return b; }, [=](const Vec3&) { return c; }};
+}
+
+TEST(FaceInertia, ArithmeticMeanOfTheTwoCells) {
+  for (int dim : {2, 3}) {
+    const Tank s(unit_scene(dim, 4));
+    const Field f_s = s.cells([](const Vec3& x) { return x[0] < 0.5 ? 0.6 : 0.2; });
+    const Field alpha = s.cells([](const Vec3& x) { return x[0] < 0.5 ? 1.0 : 0.25; });
+    FaceInertia inertia(s.grid);
+    inertia.update(s.grid, s.scene, f_s, alpha);
+    const double left = 0.4 * 1000.0, right = 0.8 * (0.25 * 1000.0 + 0.75 * 1.0);
+    for (int d = 0; d < dim; ++d)
+      s.each(s.grid.cells_and_ghosts(1), [&](int i, int, int, std::ptrdiff_t c) {
+        const double share = d == 0 && i == 2 ? 0.5 : (i < 2 ? 1.0 : 0.0);  // of the left side
+        const double f = share * 0.6 + (1.0 - share) * 0.2;
+        EXPECT_NEAR(inertia.f_s[d][c], f, 1e-15);
+        EXPECT_NEAR(inertia.solid[d][c], 2500.0 * f, 1e-10);
+        EXPECT_NEAR(inertia.fluid[d][c], share * left + (1.0 - share) * right, 1e-10);
+      });
+  }
+}
+
+struct Dragged {
+  Dragged(int dim, bool drag, double f_s, double alpha) : s(scene_of(dim, drag)), drag_(s.grid, s.scene) {
+    FaceInertia inertia(s.grid);
+    const Field alpha_cells = s.cells([=](const Vec3&) { return alpha; });
+    inertia.update(s.grid, s.scene, s.cells([=](const Vec3&) { return f_s; }), alpha_cells);
+    drag_.update(s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)), alpha_cells,
+                 inertia);
+  }
+  static Scene scene_of(int dim, bool drag) {
+    Scene scene = unit_scene(dim, 4);
+    scene.model.drag = drag;
+    return scene;
+  }
+  void expect(double value) const {
+    for (int d = 0; d < s.grid.dim; ++d)
+      s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
+        EXPECT_NEAR(drag_.beta()[d][c], value, 1e-12 * std::fabs(value));
+      });
+  }
+  Tank s;
+  InterphaseDrag drag_;
+};
+
+TEST(InterphaseDrag, UsesTheWholeSlipOfAUniformState) {
+  for (int dim : {2, 3}) {
+    const double slip = std::sqrt(0.3 * 0.3 + 0.4 * 0.4 + (dim == 3 ? 0.2 * 0.2 : 0.0));
+    for (double f_s : {0.57, 0.05})
+      for (double alpha : {1.0, 0.0, 0.3}) {
+        const Dragged d(dim, true, f_s, alpha);
+        const double beta = closures::drag_coefficient(f_s, alpha, slip, d.s.scene.gas, d.s.scene.liquid,
+                                                       d.s.scene.solid.diameter);
+        ASSERT_GT(beta, 0.0);
+        d.expect(beta);
+      }
+  }
+}
+
+TEST(InterphaseDrag, ZeroWithoutGrainsAndWhereSwitchedOff) {
+  Dragged(2, true, 0.0, 1.0).expect(0.0);
+  Dragged(2, true, 1e-7, 1.0).expect(0.0);
+  Dragged(2, false, 0.5, 1.0).expect(0.0);
+}
+
+TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
+  Dragged d(2, true, 0.5, 1.0);
+  FaceInertia inertia(d.s.grid);
+  const Field alpha(d.s.grid, 1.0);
+  inertia.update(d.s.grid, d.s.scene, Field(d.s.grid), alpha);
+  d.drag_.update(FaceField(d.s.grid), FaceField(d.s.grid), alpha, inertia);
+  d.expect(0.0);
+}
+
+}  // namespace
+}  // namespace granvof
