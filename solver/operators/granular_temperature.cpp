@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/closures/kinetic_theory.hpp"
 #include "solver/closures/radial_distribution.hpp"
@@ -14,6 +15,21 @@ namespace {
 // speak of, and nothing to dissipate what the smeared edge of a bed gains when the flow compresses it.
 // Without this bound Theta ran to 1e8 m2/s2 at f_s = 1e-4 above a bed that hits the water.
 constexpr double least_collisional_fraction = 1e-3;
+
+// The fluctuation energy 3/2 Theta of a grain cannot exceed what gravity and moving walls can give it: a fall
+// through the whole tank. P_s^EF pushes grains apart without being charged to Theta in (7), and P_s takes the
+// old Theta for a whole step; in packed beds that hit water the two together created energy without end
+// (Theta 1e10). Without gravity there is no bound: a start may hold any Theta.
+double largest_granular_temperature(const Scene& scene) {
+  if (scene.gravity <= 0.0) return std::numeric_limits<double>::infinity();
+  double wall_speed_squared = 0.0;
+  for (const Side& side : scene.sides) {
+    double square = 0.0;
+    for (const double v : side.velocity) square += v * v;
+    wall_speed_squared = std::max(wall_speed_squared, square);
+  }
+  return 2.0 / 3.0 * (scene.gravity * scene.tank[1] + 0.5 * wall_speed_squared);
+}
 
 }  // namespace
 
@@ -90,6 +106,7 @@ void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceFie
                f_max = scene_.contact.solid_fraction_max;
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const bool work = scene_.model.pressure_work;
+  const double bound = largest_granular_temperature(scene_);
   const double *f_s = f_s_new.data(), *e_cell = rheology.restitution.data();
   const double *sq = strain.squared.data(), *div = strain.divergence.data();
   double* t = theta_new.data();
@@ -128,7 +145,7 @@ void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceFie
     const double growth = std::fmax(-expansion, 0.0), decay = 3.0 * drag + std::fmax(expansion, 0.0);
     const double w_start = steady ? 0.0 : std::sqrt(t[c] * (1.0 + 2.0 * growth / inertia));
     const double w = closures::positive_root(collisions, inertia + decay, production + inertia * w_start);
-    t[c] = w * w;
+    t[c] = std::fmin(w * w, bound);
   });
 }
 
