@@ -79,9 +79,9 @@ Result evaluate_check(const Check& check, const Evaluation& evaluation, const Ru
   result.unit = metric.unit;
   const auto own = evaluation.usable.find(check.run);
   if (own == evaluation.usable.end())
-    return without_value(std::move(result),
-                         summary.state == RunState::stale ? Verdict::stale : Verdict::not_run,
-                         summary.reason);
+    return summary.state == RunState::stale ? without_value(std::move(result), Verdict::stale, "")
+                                            : without_value(std::move(result), Verdict::not_run,
+                                                            fmt::format("run {}", name_of(summary.state)));
   const FindRun find = [&](std::string_view id) -> const Run* {
     const auto found = evaluation.usable.find(std::string(id));
     return found == evaluation.usable.end() ? nullptr : &found->second;
@@ -109,6 +109,21 @@ Result evaluate_check(const Check& check, const Evaluation& evaluation, const Ru
 }
 
 }  // namespace
+
+Result canary_result(const Canary& canary) {
+  Result result;
+  result.check.id = "canary.reference.regression";
+  result.check.run = "canary";
+  result.check.metric = "reference";
+  result.check.reference.kind = ReferenceKind::regression;
+  result.check.reference.source = "reference/results/canary";
+  result.check.tolerance.unit = "-";
+  result.unit = "-";
+  result.judgement.verdict = canary.verdict;
+  result.judgement.unexpected = canary.verdict == Verdict::differs;
+  result.note = canary.note;
+  return result;
+}
 
 int Evaluation::unexpected() const {
   return static_cast<int>(

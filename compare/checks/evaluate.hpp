@@ -50,6 +50,15 @@ std::vector<Check> due_checks(const Table& table, Frequency frequency);
 // The runs those rows read, in the order of the table.
 std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency);
 
+// What the driver found when it ran the reference's canary: agrees, differs or not_run, and why.
+struct Canary {
+  Verdict verdict = Verdict::not_run;
+  std::string note;
+};
+
+// The row that says so, for the end of the table; red if it differs.
+Result canary_result(const Canary& canary);
+
 // Throws CaseError if a case file of the table cannot be read.
 Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths);
 

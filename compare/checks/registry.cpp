@@ -46,7 +46,7 @@ Measured run_out_exponent(const Run& run, const Parameters& p, const FindRun&) {
 Measured deposit_height(const Run& run, const Parameters& p, const FindRun&) {
   const auto shape = deposit_at(run, *p.at);
   if (!shape) return {std::nullopt, "undefined: no fields with a bed at that T"};
-  return {shape->peak / column_of(run.scene).height, ""};
+  return {shape->peak / column_of(run).height, ""};
 }
 
 Measured flat_top(const Run& run, const Parameters& p, const FindRun&) {

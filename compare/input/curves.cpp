@@ -9,16 +9,16 @@
 #include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
-ColumnSize column_of(const Scene& scene) {
-  return {scene.bed->box.upper[1] - scene.bed->box.lower[1], scene.gravity};
+ColumnSize column_of(const Run& run) {
+  const double nominal = run.scene.bed->box.upper[1] - run.scene.bed->box.lower[1];
+  return {run.facts.number("released_height_m").value_or(nominal), run.scene.gravity};
 }
 
 Curve run_out_curve(const Run& run) {
   if (!run.scene.bed) return {};
   // Others may give one front only; it then serves to the end.
   const bool both = run.series.has("front_dilute");
-  return run_out(run.curve("front_dense"), run.curve(both ? "front_dilute" : "front_dense"),
-                 column_of(run.scene));
+  return run_out(run.curve("front_dense"), run.curve(both ? "front_dilute" : "front_dense"), column_of(run));
 }
 
 double base_pressure_at_rest(const Scene& scene) {
@@ -34,7 +34,7 @@ Curve excess_base_pressure(const Run& run) {
 
 std::optional<DepositShape> deposit_at(const Run& run, double scaled_time) {
   if (!run.scene.bed) return std::nullopt;
-  const auto fields = run.fields_at(scaled_time * collapse_time(column_of(run.scene)));
+  const auto fields = run.fields_at(scaled_time * collapse_time(column_of(run)));
   if (!fields) return std::nullopt;
   return deposit_shape(
       bed_profile(fields->f_s, fields->cells, fields->spacing, run.scene.contact.solid_fraction_min));

@@ -11,8 +11,9 @@
 
 namespace granvof::compare {
 
-// h0 and g of a scene with a bed.
-ColumnSize column_of(const Scene& scene);
+// h0 and g of a run whose scene has a bed: h0 is the scene's, or what a recorded column of beads really had
+// when it was released.
+ColumnSize column_of(const Run& run);
 
 // Run-out (l - l0) / h0 [-] against T [-]; empty for a scene without a bed.
 Curve run_out_curve(const Run& run);

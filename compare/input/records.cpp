@@ -21,6 +21,7 @@ LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene
     }
     loaded.run = Run{directory.filename().string(), directory, scene, *loaded.facts,
                      read_series(directory / "series.csv")};
+    if (loaded.facts->grid) loaded.run->scene.grid = *loaded.facts->grid;  // of the record, not of our run
     loaded.state = RunState::usable;
   } catch (const std::exception& error) {
     loaded.reason = fmt::format("refused: {}", error.what());
@@ -35,7 +36,8 @@ std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::s
   std::vector<std::filesystem::path> variants;
   std::error_code missing;
   for (const auto& entry : std::filesystem::directory_iterator(records / name, missing))
-    if (std::filesystem::exists(entry.path() / "record.json")) variants.push_back(entry.path());
+    if (entry.path().extension() != ".part" && std::filesystem::exists(entry.path() / "record.json"))
+      variants.push_back(entry.path());
   std::sort(variants.begin(), variants.end());
   std::vector<LoadedRun> loaded;
   for (const auto& variant : variants) loaded.push_back(load_record(variant, scene));

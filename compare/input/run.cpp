@@ -19,6 +19,18 @@ std::string text_of(const nlohmann::json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+// A resolved case without its [reference] table, of which our own run reads nothing.
+std::string without_reference(const std::string& resolved) {
+  std::istringstream lines(resolved);
+  std::string kept;
+  bool skipping = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) skipping = line == "[reference]";
+    if (!skipping && !line.empty()) kept += line + '\n';
+  }
+  return kept;
+}
+
 // "was '<line>', is '<line>'" of the first line in which two texts differ.
 std::string first_difference(const std::string& before, const std::string& now) {
   std::istringstream old_lines(before), new_lines(now);
@@ -75,6 +87,11 @@ RunFacts read_facts(const std::filesystem::path& json_file) {
     facts.host = text_of(*host, "cpu_model");
   for (const auto& [key, value] : json.items())
     if (value.is_number()) facts.numbers[key] = value.get<double>();
+  if (const auto monitors = json.find("monitors"); monitors != json.end() && monitors->is_object())
+    for (const auto& [key, value] : monitors->items())
+      if (value.is_number()) facts.numbers.emplace(key, value.get<double>());
+  if (const auto grid = json.find("grid"); grid != json.end() && grid->is_object())
+    facts.grid = Grid3{grid->at("cells").get<std::array<int, 3>>(), grid->at("spacing").get<Vec3>()};
   return facts;
 }
 
@@ -120,10 +137,11 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
                                   loaded.facts->reason.empty() ? "" : ", " + loaded.facts->reason);
       return loaded;
     }
-    if (loaded.facts->resolved_case != scene.resolved) {
+    const std::string before = without_reference(loaded.facts->resolved_case);
+    const std::string now = without_reference(scene.resolved);
+    if (before != now) {
       loaded.state = RunState::stale;
-      loaded.reason = "the case has changed since the run: " +
-                      first_difference(loaded.facts->resolved_case, scene.resolved);
+      loaded.reason = "the case has changed since the run: " + first_difference(before, now);
       return loaded;
     }
     loaded.run = Run{std::string(id), directory, scene, *loaded.facts, read_series(directory / "series.csv")};

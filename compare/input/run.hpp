@@ -20,7 +20,8 @@ namespace granvof::compare {
 struct RunFacts {
   std::string scene, version, commit, case_hash, resolved_case, host, date;
   std::string exit, reason;               // "finished", "failed", ... and why
-  std::map<std::string, double> numbers;  // core_seconds, cells, steps, solid_volume_error, ...
+  std::map<std::string, double> numbers;  // core_seconds, cells, steps, ... and the program's monitors
+  std::optional<Grid3> grid;
 
   std::optional<double> number(std::string_view name) const;
 };

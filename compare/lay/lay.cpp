@@ -54,7 +54,7 @@ Curve curve_of(const Run& run, const Derived& quantity) {
     return run.series.has(quantity.source) ? quantity.function(run) : Curve{};
   Curve given = run.curve(quantity.name);
   if (quantity.abscissa == "T [-]")
-    for (double& t : given.time) t /= collapse_time(column_of(run.scene));
+    for (double& t : given.time) t /= collapse_time(column_of(run));
   return given;
 }
 
@@ -110,7 +110,7 @@ Run read_their_series(const std::filesystem::path& file, const Scene& scene) {
       throw std::invalid_argument(
           fmt::format("{}: T needs a scene with a bed, {} has none", file.string(), scene.name));
     for (auto& row : run.series.rows)
-      if (row[c]) *row[c] *= collapse_time(column_of(scene));
+      if (row[c]) *row[c] *= collapse_time(column_of(run));
     column.name = "time";
   }
   if (times != 1)

@@ -26,12 +26,16 @@ struct Options {
   std::filesystem::path table = "compare/checks.toml";
   std::filesystem::path out = "out/verify";
   Frequency frequency = Frequency::verify;
+  Canary canary;
 };
 
 const std::map<std::string, Frequency> frequencies{{"verify", Frequency::verify},
                                                    {"short", Frequency::short_},
                                                    {"nightly", Frequency::nightly},
                                                    {"weekly", Frequency::weekly}};
+
+const std::map<std::string, Verdict> canary_verdicts{
+    {"agrees", Verdict::agrees}, {"differs", Verdict::differs}, {"not run", Verdict::not_run}};
 
 int print_plan(const Options& options) {
   for (const PlannedRun& run : due_runs(read_table(options.table), options.frequency)) {
@@ -44,7 +48,8 @@ int print_plan(const Options& options) {
 
 int check_runs(const Options& options) {
   const Table table = read_table(options.table);
-  const Evaluation evaluation = evaluate(table, options.frequency, options.paths);
+  Evaluation evaluation = evaluate(table, options.frequency, options.paths);
+  if (!options.canary.note.empty()) evaluation.results.push_back(canary_result(options.canary));
   std::filesystem::create_directories(options.out);
   const auto results = options.out / "results.json";
   // Kept for the report, which shows what changed since the last comparison.
@@ -99,6 +104,10 @@ int main(int argc, char** argv) {
   check->add_option("--runs", options.paths.runs, "run directories")->capture_default_str();
   check->add_option("--cases", options.paths.cases, "case files")->capture_default_str();
   check->add_option("--records", options.paths.records, "recorded DEM-VOF results")->capture_default_str();
+  check->add_option("--canary", options.canary.verdict, "outcome of the reference's canary")
+      ->transform(CLI::CheckedTransformer(canary_verdicts));
+  check->add_option("--canary-note", options.canary.note,
+                    "what it said; without it there is no row of the canary");
   check->add_option("--out", options.out, "where the results go")->capture_default_str();
 
   CLI::App* plan =

@@ -109,11 +109,19 @@ TEST_F(Evaluate, AFailedRunIsNotRunWithItsReason) {
 }
 
 TEST_F(Evaluate, ARunOfAnotherStateOfItsCaseIsStale) {
-  write_run("s1", series(0.1), "finished", "\nchanged = 1\n");
+  write_run("s1", series(0.1), "finished", "\n[other]\nchanged = 1\n");
   const Evaluation evaluation = evaluate_row(volume_row);
   EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::stale);
   EXPECT_EQ(evaluation.unexpected(), 1);
-  EXPECT_NE(evaluation.runs[0].reason.find("changed = 1"), std::string::npos) << evaluation.runs[0].reason;
+  EXPECT_NE(evaluation.runs[0].reason.find("'[other]'"), std::string::npos) << evaluation.runs[0].reason;
+  EXPECT_NE(terminal_table(evaluation).find("'[other]'"), std::string::npos);
+}
+
+TEST_F(Evaluate, TheReferencesSettingsAreNoneOfOurRuns) {
+  const std::string resolved = scene_.resolved;
+  ASSERT_NE(resolved.find("[reference]"), std::string::npos);
+  write_run("s1", series(0.1), "finished", "\n[reference]\nfluid_dt = 123\n");
+  EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::agrees);
 }
 
 TEST_F(Evaluate, ANaNAnywhereRefusesTheRun) {
@@ -198,6 +206,24 @@ TEST_F(Evaluate, JUnitCountsFailuresAndEscapes) {
   const std::string xml = junit_xml(evaluation);
   EXPECT_NE(xml.find("tests=\"1\" failures=\"1\" skipped=\"0\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
+}
+
+TEST_F(Evaluate, ARecordIsScaledByTheHeightItReallyHad) {
+  write_run("s1", series(0.1));
+  write_record("seed1", 0.1, scene_.reference_hash);
+  const double height = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
+  const nlohmann::json json{{"case_hash", scene_.reference_hash},
+                            {"monitors", {{"released_height_m", 0.9 * height}}}};
+  write(paths_.records / "s1" / "seed1" / "record.json", json.dump());
+  write_record("seed2.part", 5.0, scene_.reference_hash);  // being written: no record yet
+  // x / h at T: 5 sqrt(h / g) speed / h scales with 1 / sqrt(h).
+  EXPECT_NEAR(*evaluate_row(record_row).results[0].reference, run_out_at_5(0.1) / std::sqrt(0.9), 1e-4);
+}
+
+TEST_F(Evaluate, TheCanaryIsRedOnlyWhereItDiffers) {
+  EXPECT_TRUE(canary_result({Verdict::differs, "front"}).judgement.unexpected);
+  EXPECT_FALSE(canary_result({Verdict::not_run, "demvof is not built"}).judgement.unexpected);
+  EXPECT_FALSE(canary_result({Verdict::agrees, "within"}).judgement.unexpected);
 }
 
 TEST_F(Evaluate, ABadCaseIsAnError) {
