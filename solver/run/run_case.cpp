@@ -9,6 +9,7 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/output/output_error.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/run/checkpoint_state.hpp"
 #include "solver/run/monitors.hpp"
@@ -56,10 +57,11 @@ class Run {
         writer_(open_writer()),
         progress_line_(options.progress, scene) {}
 
-  int go();
+  int go();  // to the end; the exit code
 
  private:
   RunWriter open_writer();
+  int loop();
   bool advance();  // one accepted step; false if the step collapsed
   void write_due_output(bool force);
   void checkpoint();
@@ -180,8 +182,8 @@ void Run::checkpoint() {
 
 int Run::finish(ExitState state, const std::string& reason) {
   progress_line_.clear();
+  checkpoint();  // of a finished run too: a longer one goes on from it
   if (state != ExitState::finished) {
-    checkpoint();
     spdlog::error("{}: {}; last good state at t = {:.6g} s is in {}", scene_.name, reason, now_.time,
                   writer_.checkpoint_path().string());
   }
@@ -190,7 +192,22 @@ int Run::finish(ExitState state, const std::string& reason) {
 }
 
 int Run::go() {
-  if (!options_.resume) write_due_output(false);
+  try {
+    if (options_.resume)
+      writer_.write_progress(progress());  // run.json must not show the old end while this goes on
+    else
+      write_due_output(false);
+    return loop();
+  } catch (const OutputError& error) {
+    progress_line_.clear();
+    spdlog::error(
+        "{}: stopped at t = {:.6g} s, its output cannot be written: {}; the last checkpoint stays in {}",
+        scene_.name, now_.time, error.what(), writer_.checkpoint_path().string());
+    return 1;
+  }
+}
+
+int Run::loop() {
   while (now_.time < scene_.times.end * (1.0 - 1e-12)) {
     if (stop_requested) return finish(ExitState::stopped, "stopped by a signal");
     if (!advance()) return finish(ExitState::failed, trouble_);
