@@ -5,6 +5,7 @@
 
 #include "solver/closures/point_on_law.hpp"
 #include "solver/closures/solid_pressure.hpp"
+#include "solver/operators/flux_balance.hpp"
 
 namespace granvof {
 namespace {
@@ -174,15 +175,8 @@ void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_p
     boundary_.exchange(flux_s[d]);
     boundary_.exchange(flux_c[d]);
   }
-  const double* f = f_s.data();
-  double* f_new = f_new_.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { f_new[c] = f[c]; });
-  for (int d = 0; d < grid_.dim; ++d) {
-    const double* fs = flux_s[d].data();
-    const std::ptrdiff_t s = grid_.stride(d);
-    const double dt_h = dt / grid_.h[d];
-    for_each(grid_.cells, [=](std::ptrdiff_t c) { f_new[c] -= dt_h * (fs[c + s] - fs[c]); });
-  }
+  f_new_ = f_s;
+  subtract_divergence(grid_, dt, flux_s, f_new_);
 }
 
 // Takes the law P_s(f_s) and its slope at the linearisation points.

@@ -6,6 +6,7 @@
 
 #include "solver/closures/kinetic_theory.hpp"
 #include "solver/closures/radial_distribution.hpp"
+#include "solver/operators/flux_balance.hpp"
 #include "solver/operators/mixture.hpp"
 
 namespace granvof {
@@ -50,16 +51,7 @@ void GranularTemperature::convect(double dt, const Field& theta, const Field& f_
   const double *f = f_s.data(), *f_new = f_s_new.data(), *t = theta.data();
   double* out = theta_new.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
-  for (int d = 0; d < grid_.dim; ++d) {
-    const double* q = flux_s[d].data();
-    const std::ptrdiff_t s = grid_.stride(d);
-    const double dt_h = dt / grid_.h[d];
-    for_each(grid_.cells, [=](std::ptrdiff_t c) {
-      const double ahead = q[c + s] * (q[c + s] > 0.0 ? t[c] : t[c + s]);
-      const double behind = q[c] * (q[c] > 0.0 ? t[c - s] : t[c]);
-      out[c] -= dt_h * (ahead - behind);
-    });
-  }
+  subtract_upwind_divergence(grid_, dt, flux_s, theta, theta_new);
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     out[c] = f_new[c] >= least_solid_fraction ? std::fmax(out[c] / f_new[c], 0.0) : 0.0;
   });

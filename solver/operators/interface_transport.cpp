@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/operators/cicsam.hpp"
+#include "solver/operators/flux_balance.hpp"
 
 namespace granvof {
 namespace {
@@ -28,18 +29,11 @@ InterfaceTransport::InterfaceTransport(const Grid& grid, const Scene& scene, con
 
 // The outflow Courant number of every cell goes to courant_; only cells at the interface decide the division.
 int InterfaceTransport::substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c) {
+  outflow_rate(grid_, flux_c, courant_);
   double* co = courant_.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { co[c] = 0.0; });
-  for (int d = 0; d < grid_.dim; ++d) {
-    const double* q = flux_c[d].data();
-    const std::ptrdiff_t s = grid_.stride(d);
-    const double dt_h = dt / grid_.h[d];
-    for_each(grid_.cells,
-             [=](std::ptrdiff_t c) { co[c] += dt_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0)); });
-  }
   const double *f = f_s.data(), *a = alpha.data();
   const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
-    co[c] /= 1.0 - f[c];
+    co[c] *= dt / (1.0 - f[c]);
     return a[c] > 1e-6 && a[c] < 1.0 - 1e-6 ? co[c] : 0.0;
   });
   const int parts = std::clamp(static_cast<int>(std::ceil(largest / interface_courant)), 1, most_substeps);
@@ -120,25 +114,13 @@ double InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& al
   boundary_.fill_scalar(alpha, 0.0);
   interface_normal(alpha);
   double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c.data();
-  double* fc_end = f_c_end.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    fl[c] = a[c] * fc[c];
-    fc_end[c] = fc[c];
-  });
-  for (int d = 0; d < grid_.dim; ++d) {
-    face_alpha(d, alpha, flux_c);
-    const double* q = flux_c[d].data();
-    const std::ptrdiff_t s = grid_.stride(d);
-    const double dt_h = dt / grid_.h[d];
-    for_each(grid_.cells, [=](std::ptrdiff_t c) {
-      const double ahead = q[c + s] * (q[c + s] > 0.0 ? a[c] : a[c + s]);
-      const double behind = q[c] * (q[c] > 0.0 ? a[c - s] : a[c]);
-      fl[c] -= dt_h * (ahead - behind);
-      // What the fluxes leave, not 1 - f_s: the two differ by the continuity residual, and only with the
-      // former is alpha bounded without clipping, which would lose the residual of every full cell.
-      fc_end[c] -= dt_h * (q[c + s] - q[c]);
-    });
-  }
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] = a[c] * fc[c]; });
+  subtract_upwind_divergence(grid_, dt, flux_c, alpha, liquid_);
+  // What the fluxes leave, not 1 - f_s: the two differ by the continuity residual, and only with the former
+  // is alpha bounded without clipping, which would lose the residual of every full cell.
+  f_c_end = f_c;
+  subtract_divergence(grid_, dt, flux_c, f_c_end);
+  for (int d = 0; d < grid_.dim; ++d) face_alpha(d, alpha, flux_c);
   limit_corrections(dt, f_c_end);
   double left = 0.0;
   if (grid_.open_top) {
@@ -150,12 +132,8 @@ double InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& al
              return q[c + s] * (q[c + s] > 0.0 ? a[c] : a[c + s]) + corr[c + s];
            });
   }
-  for (int d = 0; d < grid_.dim; ++d) {
-    const double* q = correction_[d].data();
-    const std::ptrdiff_t s = grid_.stride(d);
-    const double dt_h = dt / grid_.h[d];
-    for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] -= dt_h * (q[c + s] - q[c]); });
-  }
+  subtract_divergence(grid_, dt, correction_, liquid_);
+  const double* fc_end = f_c_end.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     a[c] = std::clamp(fl[c] / fc_end[c], 0.0, 1.0);  // within bounds already but for rounding
     fc[c] = fc_end[c];

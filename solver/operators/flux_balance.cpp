@@ -1,0 +1,45 @@
+#include "solver/operators/flux_balance.hpp"
+
+#include <cmath>
+
+namespace granvof {
+
+void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, Field& content) {
+  double* out = content.data();
+  for (int d = 0; d < grid.dim; ++d) {
+    const double* q = flux[d].data();
+    const std::ptrdiff_t s = grid.stride(d);
+    const double dt_h = dt / grid.h[d];
+    for_each(grid.cells, [=](std::ptrdiff_t c) { out[c] -= dt_h * (q[c + s] - q[c]); });
+  }
+}
+
+void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& flux, const Field& value,
+                                Field& content) {
+  const double* v = value.data();
+  double* out = content.data();
+  for (int d = 0; d < grid.dim; ++d) {
+    const double* q = flux[d].data();
+    const std::ptrdiff_t s = grid.stride(d);
+    const double dt_h = dt / grid.h[d];
+    for_each(grid.cells, [=](std::ptrdiff_t c) {
+      const double ahead = q[c + s] * (q[c + s] > 0.0 ? v[c] : v[c + s]);
+      const double behind = q[c] * (q[c] > 0.0 ? v[c - s] : v[c]);
+      out[c] -= dt_h * (ahead - behind);
+    });
+  }
+}
+
+void outflow_rate(const Grid& grid, const FaceField& flux, Field& rate) {
+  double* out = rate.data();
+  for_each(grid.cells, [=](std::ptrdiff_t c) { out[c] = 0.0; });
+  for (int d = 0; d < grid.dim; ++d) {
+    const double* q = flux[d].data();
+    const std::ptrdiff_t s = grid.stride(d);
+    const double inv_h = 1.0 / grid.h[d];
+    for_each(grid.cells,
+             [=](std::ptrdiff_t c) { out[c] += inv_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0)); });
+  }
+}
+
+}  // namespace granvof
