@@ -73,10 +73,11 @@ Json json_curves(const Run& run) {
   };
   add("run_out", run_out_curve(run));
   add("excess_base_pressure", excess_base_pressure(run));
-  if (const Curve centre = run.curve("y_c"); !centre.empty()) {
-    // The paper's mean over 3-6 s of 6 s.
+  for (const char* column : {"y_c", "y_solid_mean"}) {
+    // About the paper's mean, over 3-6 s of 6 s.
+    const Curve centre = run.curve(column);
     const auto mean = time_mean(clip(centre, {0.5 * run.scene.times.end, run.scene.times.end}));
-    if (mean) add("y_c_deviation", shifted(centre, -*mean));
+    if (mean) add((std::string(column) + "_deviation").c_str(), shifted(centre, -*mean));
   }
   for (const char* column :
        {"front_dense", "y_c", "y_solid_mean", "interface_height", "bed_height_equivalent"})

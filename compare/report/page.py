@@ -6,6 +6,7 @@ from pathlib import Path
 import jinja2
 
 from report import figures, style
+from report.film import film
 from report.results import changes
 
 ORDER = ["differs", "stale", "not run", "expected failure", "within band", "agrees"]
@@ -29,8 +30,23 @@ def render(results, plots):
         counts=[(verdict, count) for verdict, count in counts.items() if count],
         rows=sorted(results.rows, key=lambda row: (not row["unexpected"], ORDER.index(row["verdict"]))),
         runs=[run_facts(run) for run in results.runs.values()],
+        films=films(results),
         plots=[{"name": name, "caption": figures.caption(name),
                 "data": encoded(results.directory / "plots" / f"{name}.png")} for name in plots])
+
+
+def films(results):
+    """Films of the runs that have one; written beside the plots too."""
+    made = []
+    for run, entry in results.curves.items():
+        moving = film(entry)
+        if moving is None:
+            continue
+        (results.directory / "plots").mkdir(exist_ok=True)
+        (results.directory / "plots" / f"film-{run}.apng").write_bytes(moving)
+        made.append({"name": f"film-{run}", "data": base64.b64encode(moving).decode("ascii"),
+                     "caption": f"{run}: film; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
+    return made
 
 
 def run_facts(run):

@@ -50,7 +50,7 @@ def make_fields(path, phi_of_x):
     alpha[0, :6] = 1.0
     path.mkdir(parents=True, exist_ok=True)
     with h5py.File(path / "fields.h5", "w") as file:
-        for index, time in enumerate((0.0, 0.35, 0.7)):
+        for index, time in enumerate(np.linspace(0.0, 0.7, 5)):
             group = file.create_group(f"t{index:04}")
             group.attrs["time"] = time
             group["f_s"], group["alpha"], group["phi"] = f_s, alpha, np.broadcast_to(phi_of_x(x), f_s.shape)
@@ -76,7 +76,8 @@ def make_comparison(root):
         scene = {"title": name, "tank": [0.12, 0.08, 0.01], "dimensions": 2, "cells": [12, 8, 1], "spacing": [0.01, 0.01, 0.01],
                  "gravity": 9.81, "density_ratio": 0.2, "drag": True, "end": 6.0, "time_unit": 0.07, "field_times": [0, 0.7],
                  "bed": {"lower": [0, 0, 0], "upper": [0.05, 0.04, 0], "solid_fraction": 0.57}}
-        given = {"run_out": (t, t / 3), "excess_base_pressure": (t, np.exp(-t)), "y_c_deviation": (t, np.cos(t))}
+        given = {"run_out": (t, t / 3), "excess_base_pressure": (t, np.exp(-t)), "y_c_deviation": (t, np.cos(t)),
+                 "y_solid_mean_deviation": (t, np.cos(t))}
         curves[name] = {"scene": scene, "directory": str(root / "runs" / name),
                         "curves": {key: {"x": list(x), "y": list(y)} for key, (x, y) in given.items()}}
     records = {"s1": {f"seed{seed}": curves["s1"] for seed in (1, 2)}}

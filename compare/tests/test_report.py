@@ -7,7 +7,8 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from report import figures, page, results
+from PIL import Image
+from report import figures, film, page, results
 
 
 def write_previous(directory, rows):
@@ -24,7 +25,21 @@ def test_report_writes_every_plot_as_png_and_pdf(reported):
     assert plots == {"run-out", "base-pressure", "centre-height", "floating-theory", "snapshots-s1", "snapshots-float-full-r02"}
     assert plots == {path.stem for path in (reported / "plots").glob("*.pdf")}
     text = (reported / "report.html").read_text()
-    assert text.count("data:image/png;base64,") == len(plots)
+    films = list((reported / "plots").glob("*.apng"))
+    assert text.count("data:image/png;base64,") == len(plots) + len(films)
+
+
+def test_a_film_has_every_instant(reported):
+    with Image.open(reported / "plots/film-s1.apng") as film:
+        assert film.n_frames == 5
+        assert film.size[0] == 480
+
+
+def test_a_narrow_tank_or_few_instants_have_no_film(verify_directory):
+    entry = results.load(verify_directory).curves["s1"]
+    assert film.film(entry) is not None
+    assert film.film(entry | {"scene": entry["scene"] | {"tank": [0.01, 0.4, 1.0]}}) is None
+    assert film.film(entry | {"directory": "nowhere"}) is None
 
 
 class Outside(HTMLParser):
