@@ -76,8 +76,8 @@ void Multigrid::build(const std::array<bool, 3>& coupled) {
     const std::size_t size = l.layout.size;
     for (int d = 0; d < 3; ++d)
       if (l.coupled[d]) l.face[d] = Buffer<float>(size);
-    for (auto* b : {&l.mass, &l.scale, &l.root, &l.weight, &l.rhs, &l.x[0], &l.x[1]})
-      *b = Buffer<float>(size);
+    for (auto* b : {&l.mass, &l.scale, &l.root, &l.weight, &l.rhs}) *b = Buffer<float>(size);
+    for (auto& x : l.x) x = Buffer<float>(size);
     for (int d = 0; d < 3; ++d) {
       l.coarsened[d] = l.coupled[d] && spacing[d] < 1.99 * shortest;
       if (!l.coarsened[d]) continue;
