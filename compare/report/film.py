@@ -40,8 +40,7 @@ def frame(time, f_s, alpha, scene):
     scaled = scene["time_unit"] != 1.0
     label = f"T = {abs(time) / scene['time_unit']:.3g}" if scaled else f"t = {abs(time):.3g} s"
     ImageDraw.Draw(image).text((4, 2), label, fill="black")
-    # Few colours, no dithering: small files.
-    return image.convert("P", palette=Image.Palette.ADAPTIVE, colors=128)
+    return image
 
 
 def surface(alpha):

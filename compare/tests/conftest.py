@@ -45,7 +45,6 @@ def make_run(name):
 def make_fields(path, phi_of_x):
     x = (np.arange(12) + 0.5) / 12
     f_s = np.zeros((1, 8, 12))
-    f_s[0, :4, :5] = 0.57
     alpha = np.zeros_like(f_s)
     alpha[0, :6] = 1.0
     path.mkdir(parents=True, exist_ok=True)
@@ -53,6 +52,7 @@ def make_fields(path, phi_of_x):
         for index, time in enumerate(np.linspace(0.0, 0.7, 5)):
             group = file.create_group(f"t{index:04}")
             group.attrs["time"] = time
+            f_s[0, :4, :3 + index] = 0.57 - 0.1 * (index % 2)
             group["f_s"], group["alpha"], group["phi"] = f_s, alpha, np.broadcast_to(phi_of_x(x), f_s.shape)
 
 

@@ -30,9 +30,21 @@ def test_report_writes_every_plot_as_png_and_pdf(reported):
 
 
 def test_a_film_has_every_instant(reported):
-    with Image.open(reported / "plots/film-s1.apng") as film:
-        assert film.n_frames == 5
-        assert film.size[0] == 480
+    with Image.open(reported / "plots/film-s1.apng") as moving:
+        assert moving.n_frames == 5
+        assert moving.size[0] == 480
+
+
+def test_each_instant_of_a_film_has_its_own_colours(reported):
+    entry = results.load(reported).curves["s1"]
+    with Image.open(reported / "plots/film-s1.apng") as moving:
+        for index, (time, f_s, alpha, _) in enumerate(results.snapshots(entry)):
+            moving.seek(index)
+            shown = np.asarray(moving.convert("RGB")).astype(int)
+            assert (shown == np.asarray(film.frame(time, f_s, alpha, entry["scene"]))).all(), index
+            grains, water = shown[-1, 0], shown[-1, -1]
+            assert grains[0] > 2 * grains[2]  # brown
+            assert water[2] > water[0] > 200  # light blue
 
 
 def test_a_narrow_tank_or_few_instants_have_no_film(verify_directory):
