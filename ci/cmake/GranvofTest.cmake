@@ -7,5 +7,6 @@ function(granvof_test)
   target_compile_definitions(${ARG_NAME} PRIVATE
     GRANVOF_CASES_DIR="${CMAKE_SOURCE_DIR}/cases")
   # Parameters are named by their index: some print as raw memory, different in every build.
-  gtest_discover_tests(${ARG_NAME} DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900)
+  gtest_discover_tests(${ARG_NAME} DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 900
+                       ENVIRONMENT OMP_NUM_THREADS=1)
 endfunction()

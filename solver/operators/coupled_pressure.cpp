@@ -22,7 +22,7 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
-      solver_(grid.cells, communicator),
+      solver_(grid.cells, communicator, grid.h),
       fraction_(scene.numerics.solid_flux),
       us_by_pc_(grid),
       us_by_ps_(grid),

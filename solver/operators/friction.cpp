@@ -22,6 +22,7 @@ Layout face_layout(const Grid& grid, int d) {
 
 std::vector<Layout> face_layouts(const Grid& grid) {
   std::vector<Layout> layouts;
+  layouts.reserve(static_cast<std::size_t>(grid.dim));
   for (int d = 0; d < grid.dim; ++d) layouts.push_back(face_layout(grid, d));
   return layouts;
 }

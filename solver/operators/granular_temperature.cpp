@@ -39,7 +39,7 @@ GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, c
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
-      solver_(grid.cells, communicator),
+      solver_(grid.cells, communicator, grid.h),
       conductivity_(grid),
       kappa_(grid),
       mass_(grid),
