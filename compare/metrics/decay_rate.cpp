@@ -2,24 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "compare/metrics/line_fit.hpp"
 
 namespace granvof::compare {
-namespace {
-
-// Slope of the least-squares line through the points.
-double slope(const std::vector<double>& time, const std::vector<double>& value) {
-  const auto n = static_cast<Eigen::Index>(time.size());
-  Eigen::MatrixX2d basis(n, 2);
-  basis.col(0).setOnes();
-  basis.col(1) = Eigen::Map<const Eigen::VectorXd>(time.data(), n);
-  const Eigen::Vector2d solved =
-      basis.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(value.data(), n));
-  return solved(1);
-}
-
-}  // namespace
-
 std::optional<double> approach_rate(const Curve& curve, Window window, double rest) {
   const Curve inside = clip(curve, window);
   if (inside.size() < 3) return std::nullopt;
@@ -29,7 +14,7 @@ std::optional<double> approach_rate(const Curve& curve, Window window, double re
     if (deviation == 0.0 || (deviation > 0.0) != (inside.value.front() > rest)) return std::nullopt;
     log_deviation.push_back(std::log(std::abs(deviation)));
   }
-  return -slope(inside.time, log_deviation);
+  return -line_fit(inside.time, log_deviation).slope;
 }
 
 Curve resolved_part(const Curve& curve, double rest, double least) {
@@ -64,7 +49,7 @@ std::optional<double> envelope_decay_rate(const Curve& curve, Window window) {
     }
   }
   if (time.size() < 2) return std::nullopt;
-  return -slope(time, log_peak);
+  return -line_fit(time, log_peak).slope;
 }
 
 }  // namespace granvof::compare

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "compare/metrics/line_fit.hpp"
 
 namespace granvof::compare {
 
@@ -15,13 +15,8 @@ std::optional<PowerLaw> power_law(const Curve& curve, Window window) {
     log_value.push_back(std::log(inside.value[i]));
   }
   if (log_time.size() < 2) return std::nullopt;
-  const auto n = static_cast<Eigen::Index>(log_time.size());
-  Eigen::MatrixX2d basis(n, 2);
-  basis.col(0).setOnes();
-  basis.col(1) = Eigen::Map<const Eigen::VectorXd>(log_time.data(), n);
-  const Eigen::Vector2d solved =
-      basis.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(log_value.data(), n));
-  return PowerLaw{std::exp(solved(0)), solved(1)};
+  const Line line = line_fit(log_time, log_value);
+  return PowerLaw{std::exp(line.offset), line.slope};
 }
 
 }  // namespace granvof::compare

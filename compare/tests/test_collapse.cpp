@@ -7,6 +7,7 @@
 #include "compare/metrics/conservation.hpp"
 #include "compare/metrics/dam_break.hpp"
 #include "compare/metrics/deposit_shape.hpp"
+#include "compare/metrics/line_fit.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
 
@@ -69,6 +70,13 @@ TEST(BasePressure, SignIsThatOfTheIntegral) {
   EXPECT_DOUBLE_EQ(*onset_sign(excess, {0.0, 1.0}, 1.0), 1.0);
   EXPECT_DOUBLE_EQ(*onset_sign(excess, {0.0, 1.0}, 100.0), 0.0);
   EXPECT_DOUBLE_EQ(*onset_sign(excess, {0.01, 0.03}, 1.0), -1.0);
+}
+
+TEST(LineFit, IsExactOnALineAndTheMeanOtherwise) {
+  const Line exact = line_fit({1.0, 2.0, 4.0}, {5.0, 7.0, 11.0});
+  EXPECT_NEAR(exact.offset, 3.0, 1e-12);
+  EXPECT_NEAR(exact.slope, 2.0, 1e-12);
+  EXPECT_NEAR(line_fit({-1.0, 0.0, 1.0}, {0.0, 3.0, 0.0}).offset, 1.0, 1e-12);
 }
 
 TEST(PowerLaw, FindsItsOwnParameters) {
