@@ -43,11 +43,13 @@ TankSetup tank(int nx, int ny, double cell, double depth, FluidSide top) {
   return s;
 }
 
-CoupledRun start(const TankSetup& s, const std::vector<double>& position, double fluid_dt = 2e-4) {
+CoupledRun start(const TankSetup& s, const std::vector<double>& position, double fluid_dt = 2e-4,
+                 bool predict_pressure = false) {
   BeadState beads;
   beads.position = position;
   demvof::CouplingSettings coupling;
   coupling.fluid_dt = fluid_dt;
+  coupling.predict_pressure = predict_pressure;
   return CoupledRun(coupling, s.beads, beads, {}, s.fluid, std::vector<double>(s.cells(), 1.0));
 }
 
@@ -155,4 +157,98 @@ TEST(Coupling, FallingBedLoadsThePoreWaterWithItsSubmergedWeight) {
   }
   const double submerged = static_cast<double>(count) * volume * 1500.0 * 9.81 / (0.01 * 4e-3);
   EXPECT_NEAR(sum - at_rest, submerged, 0.1 * submerged);
+}
+
+// The prediction of the pressure must not change what heavy beads do, nor the balance of momentum.
+TEST(LightBeads, PredictionKeepsTheBalanceOfMomentum) {
+  TankSetup s = tank(16, 16, 2.5e-3, 4e-3, FluidSide::slip);
+  s.fluid.gravity = s.beads.gravity = 0.0;
+  s.beads.density = 400.0;
+  std::mt19937 random(1);
+  const auto position = demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
+  CoupledRun run = start(s, position, 2e-4, true);
+  std::vector<double> velocity(position.size(), 0.0);
+  for (std::size_t n = 0; n < velocity.size(); n += 3) velocity[n] = 0.2;
+  run.beads().set_velocities(velocity);
+  run.beads().run(1);
+  const double given = run.beads().bead_mass() * 200.0 * 0.2;
+  const double start_momentum = run.momentum()[0];
+  double walls = 0.0;
+  for (int n = 0; n < 100; ++n) {
+    const double duration = run.step(2e-4);
+    walls += duration * run.fluid().boundary_force()[0];
+  }
+  EXPECT_NEAR(run.momentum()[0] - start_momentum, walls, 0.02 * given);
+}
+
+// A lone bead of 200 kg/m3 rises at the speed at which its drag balances its buoyancy.
+TEST(LightBeads, ALoneBeadRisesAtItsTerminalSpeed) {
+  TankSetup s = tank(8, 12, 0.01, 0.02, FluidSide::open);
+  s.beads.density = 200.0;
+  CoupledRun run = start(s, {0.04, 0.02, 0.01}, 2e-4, true);
+  for (int n = 0; n < 1000; ++n) run.step(2e-4);
+  const double expected = terminal_speed(0.0, 200.0, 9.81);
+  EXPECT_NEAR(mean_velocity(run, 1), expected, 0.02 * expected);
+}
+
+// A bed of 200 kg/m3 let go near its floating depth in water, three layers of cells deep.
+struct FloatingBed {
+  static constexpr double diameter = 2e-3, density = 200.0;
+  std::size_t count = 0;
+  double fastest = 0.0;       // over the run [m/s]
+  double liquid_change = 0.0; // [-]
+  double mean_velocity = 0.0; // at the end [m/s]
+  double lift = 0.0;          // force of the pressure on the bed at the end, over its weight [-]
+
+  explicit FloatingBed(bool predict_pressure) {
+    TankSetup s = tank(2, 32, 5e-3, 0.01, FluidSide::open);
+    const double volume = std::numbers::pi / 6.0 * diameter * diameter * diameter;
+    s.beads.diameter = diameter;
+    s.beads.density = density;
+    s.beads.law.wall_friction = 0.0;
+    std::mt19937 random(1);
+    count = static_cast<std::size_t>(0.5 * 0.01 * 0.05 * 0.01 / volume);
+    BeadState beads;
+    beads.position = demvof::disperse_beads(count, {0, 0.065, 0}, {0.01, 0.115, 0.01}, true, diameter, random);
+    std::vector<double> alpha;
+    for (int j = 0; j < 32; ++j) alpha.insert(alpha.end(), 2, j < 16 ? 1.0 : 0.0);
+    demvof::CouplingSettings coupling;
+    coupling.predict_pressure = predict_pressure;
+    CoupledRun run(coupling, s.beads, beads, {}, s.fluid, alpha);
+    const double liquid = run.fluid().liquid_volume();
+    const auto step = [&] {
+      run.step(2e-4);
+      for (const double v : run.beads().state().velocity) fastest = std::max(fastest, std::abs(v));
+    };
+    while (run.time() < 0.4) step();
+    const double weight = static_cast<double>(count) * volume * density * 9.81;
+    for (int n = 0; n < 100; ++n) {
+      step();
+      for (std::size_t b = 1; b < 3 * count; b += 3) lift += run.load().force[b] / (100.0 * weight);
+    }
+    liquid_change = run.fluid().liquid_volume() / liquid - 1.0;
+    mean_velocity = ::mean_velocity(run, 1);
+  }
+};
+
+// It must neither blow up nor sink, and the pressure must carry its weight.
+TEST(LightBeads, ABedFloatsAtRest) {
+  const FloatingBed bed(true);
+  EXPECT_LT(bed.fastest, 1.0);
+  EXPECT_NEAR(bed.liquid_change, 0.0, 1e-6);
+  EXPECT_LT(std::abs(bed.mean_velocity), 0.02);
+  EXPECT_NEAR(bed.lift, 1.0, 0.1);
+  RecordProperty("fastest", std::to_string(bed.fastest));
+  RecordProperty("lift", std::to_string(bed.lift));
+}
+
+// The same without the beads' inertia in the pressure: this is what the prediction is for.
+TEST(LightBeads, WithoutPredictionTheBedBlowsUp) {
+  bool lost = false;
+  try {
+    lost = FloatingBed(false).fastest > 1.0;
+  } catch (const std::runtime_error&) {
+    lost = true;
+  }
+  EXPECT_TRUE(lost);
 }

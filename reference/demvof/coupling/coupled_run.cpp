@@ -32,6 +32,14 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const BeadSettings& bea
   fluid_ = std::make_unique<Fluid>(fluid, alpha, void_fraction(solid_fraction_));
   load_.resize(mobile.count());
   carry_.assign(3 * mobile.count(), 0.0);
+  last_duration_ = settings_.fluid_dt;
+  if (settings_.predict_pressure) {
+    predicted_.assign(3 * mobile.count(), 0.0);
+    for (int d = 0; d < 3; ++d) {
+      mapping_.gather(fluid_->view().pressure_gradient[static_cast<std::size_t>(d)], 3, d, predicted_);
+    }
+    for (double& f : predicted_) f *= -beads_->bead_volume();
+  }
   reaction_.drag_coefficient.assign(mapping_.cell_count(), 0.0);
   for (auto& component : reaction_.force) component.assign(mapping_.cell_count(), 0.0);
   renew_load();
@@ -113,8 +121,6 @@ double CoupledRun::step(double longest) {
 
 void CoupledRun::renew_load() {
   const FluidView& view = fluid_->view();
-  const PhaseProperties gas{fluid_settings_.gas_density, fluid_settings_.gas_viscosity};
-  const PhaseProperties liquid{fluid_settings_.liquid_density, fluid_settings_.liquid_viscosity};
   const double volume = beads_->bead_volume();
   for (int d = 0; d < 3; ++d) {
     const auto component = static_cast<std::size_t>(d);
@@ -122,7 +128,14 @@ void CoupledRun::renew_load() {
     mapping_.gather(view.pressure_gradient[component], 3, d, load_.force);
   }
   for (double& f : load_.force) f *= -volume;
-  if (!settings_.drag) return;
+  if (settings_.drag) renew_drag();
+  if (settings_.predict_pressure) predict_pressure_force();
+}
+
+void CoupledRun::renew_drag() {
+  const FluidView& view = fluid_->view();
+  const PhaseProperties gas{fluid_settings_.gas_density, fluid_settings_.gas_viscosity};
+  const PhaseProperties liquid{fluid_settings_.liquid_density, fluid_settings_.liquid_viscosity};
 
   std::vector<double> alpha(load_.coefficient.size()), f_s(load_.coefficient.size());
   mapping_.gather(view.alpha, 1, 0, alpha);
@@ -134,6 +147,39 @@ void CoupledRun::renew_load() {
                                    load_.velocity[3 * bead + 2] - velocity[3 * bead + 2]);
     load_.coefficient[bead] = bead_drag(f_s[bead], std::clamp(alpha[bead], 0.0, 1.0), slip, gas, liquid,
                                         beads_->settings().diameter);
+  }
+}
+
+void CoupledRun::predict_pressure_force() {
+  const std::size_t cells = mapping_.cell_count();
+  const double volume = beads_->bead_volume(), cell_volume = mapping_.cell_volume();
+  // What the last prediction missed of the pressure that the fluid then had.
+  std::vector<double> missed(load_.force.size());
+  for (std::size_t n = 0; n < missed.size(); ++n) missed[n] = load_.force[n] - predicted_[n];
+
+  BeadInertia inertia;
+  inertia.density = beads_->settings().density;
+  inertia.drag_coefficient.assign(cells, 0.0);
+  mapping_.deposit(load_.coefficient, 1, 0, inertia.drag_coefficient);
+  for (double& k : inertia.drag_coefficient) k /= cell_volume;
+  for (int d = 0; d < 3; ++d) {
+    const auto component = static_cast<std::size_t>(d);
+    inertia.velocity[component].assign(cells, 0.0);
+    inertia.force[component].assign(cells, 0.0);
+    mapping_.deposit(beads_->state().velocity, 3, d, inertia.velocity[component]);
+    mapping_.deposit(missed, 3, d, inertia.force[component]);
+    for (std::size_t c = 0; c < cells; ++c) {
+      inertia.force[component][c] /= cell_volume;
+      double& u = inertia.velocity[component][c];
+      u = solid_fraction_[c] > 1e-6 ? u * volume / (cell_volume * solid_fraction_[c])
+                                    : fluid_->view().velocity[component][c];
+    }
+  }
+  const auto gradient = fluid_->predict_pressure_gradient(last_duration_, inertia);
+  for (int d = 0; d < 3; ++d) mapping_.gather(gradient[static_cast<std::size_t>(d)], 3, d, predicted_);
+  for (std::size_t n = 0; n < missed.size(); ++n) {
+    predicted_[n] *= -volume;
+    load_.force[n] = predicted_[n] + missed[n];
   }
 }
 
@@ -159,7 +205,9 @@ Vector CoupledRun::momentum() const {
   const std::vector<double>& velocity = beads_->state().velocity;
   const double mass = beads_->bead_mass();
   for (std::size_t n = 0; n < velocity.size(); ++n) {
-    total[n % 3] += mass * velocity[n] + carry_[n] + load_.force[n] * last_duration_;
+    // With a prediction only what it missed is still owed; without, the whole pressure of the last fluid step.
+    const double owed = settings_.predict_pressure ? load_.force[n] - predicted_[n] : load_.force[n];
+    total[n % 3] += mass * velocity[n] + carry_[n] + owed * last_duration_;
   }
   return total;
 }

@@ -20,6 +20,10 @@ namespace demvof {
 struct CouplingSettings {
   double fluid_dt = 2e-4;  // longest fluid step [s]; shortened where the liquid would move half a cell
   bool drag = true;        // false: pressure gradient alone
+  // Pressure on the beads predicted with their inertia in the equation, instead of that of the last fluid step. Needed
+  // where (f_s / rho_s) / (f_c / rho_c) exceeds about 1: beads not much heavier than the liquid. What the prediction
+  // missed is handed over in the next step.
+  bool predict_pressure = false;
 };
 
 class CoupledRun {
@@ -54,6 +58,7 @@ class CoupledRun {
   Mapping mapping_;
   std::unique_ptr<BeadEngine> beads_;
   std::unique_ptr<Fluid> fluid_;
+  std::vector<double> predicted_;       // force by the predicted pressure in the next step [N], three a bead
   FluidLoad load_;                      // what the beads will feel in the next step, carry left out
   std::vector<double> carry_;           // impulse owed to the beads [N s], three a bead
   std::vector<double> solid_fraction_;  // a cell
@@ -62,7 +67,9 @@ class CoupledRun {
   double last_duration_ = 0.0;
 
   void deposit_solid_fraction();
+  void predict_pressure_force();
   void renew_load();
+  void renew_drag();
   int steps_that_fit(double longest) const;
   std::vector<double> drag_impulse(const std::vector<double>& old_position, double duration) const;
 };

@@ -31,7 +31,7 @@ divSchemes
 laplacianSchemes { default Gauss linear corrected; }
 interpolationSchemes { default linear; }
 snGradSchemes { default corrected; }
-fluxRequired { default no; p_rgh; alpha; }
+fluxRequired { default no; p_rgh; pPredicted; alpha; }
 )";
 
 const char* const solution = R"(
@@ -39,6 +39,7 @@ solvers
 {
     alpha { nAlphaCorr 1; nAlphaSubCycles 1; cAlpha 1; MULESCorr no; nLimiterIter 5; }
     p_rgh { solver PCG; preconditioner DIC; tolerance 1e-8; relTol 1e-3; maxIter 2000; }
+    pPredicted { solver PCG; preconditioner DIC; tolerance 1e-8; relTol 1e-4; maxIter 2000; }
     p_rghFinal { solver PCG; preconditioner DIC; tolerance 1e-9; relTol 1e-6; maxIter 2000; }
 }
 PISO { }

@@ -76,6 +76,22 @@ void Fluid::step(double dt, const BeadLoad& load) {
   }
 }
 
+std::array<std::vector<double>, 3> Fluid::predict_pressure_gradient(double dt, const BeadInertia& beads) {
+  try {
+    const volVectorField gradient(demvof::predict_pressure_gradient(*fields_, dt, beads));
+    std::array<std::vector<double>, 3> values;
+    for (int d = 0; d < 3; ++d) {
+      values[d].resize(beads.drag_coefficient.size());
+      for (std::size_t c = 0; c < values[d].size(); ++c) {
+        values[d][c] = gradient[static_cast<label>(c)][static_cast<direction>(d)];
+      }
+    }
+    return values;
+  } catch (const error& problem) {
+    throw std::runtime_error(message_of(problem));
+  }
+}
+
 void Fluid::refresh_view() {
   const Fields& f = *fields_;
   const std::size_t n = static_cast<std::size_t>(f.mesh.nCells());

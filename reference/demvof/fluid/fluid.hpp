@@ -53,6 +53,14 @@ struct BeadLoad {
   std::array<std::vector<double>, 3> force;    // explicit force density on the fluid [N/m3]
 };
 
+// The beads as the pressure prediction sees them, one value a cell.
+struct BeadInertia {
+  double density = 0.0;                         // rho_s [kg/m3]
+  std::vector<double> drag_coefficient;         // K [kg/(m3 s)]
+  std::array<std::vector<double>, 3> velocity;  // mean bead velocity; the fluid's where there are no beads [m/s]
+  std::array<std::vector<double>, 3> force;     // known force on the beads beside pressure, drag, weight [N/m3]
+};
+
 class Fluid {
  public:
   struct Fields;  // the OpenFOAM objects, fluid_fields.hpp
@@ -70,6 +78,11 @@ class Fluid {
 
   // Advance by dt [s]. Throws std::runtime_error when a value is no longer finite.
   void step(double dt, const BeadLoad& load);
+
+  // Pressure gradient [Pa/m], one value a cell, under which fluid and beads together would keep the volume over the
+  // next dt, were the beads free of contacts: their inertia is part of the pressure equation, so that light beads
+  // do not overreact to a pressure that was made without them (added mass). Changes nothing in the fluid.
+  std::array<std::vector<double>, 3> predict_pressure_gradient(double dt, const BeadInertia& beads);
 
   const FluidView& view() const { return view_; }
   // Largest Courant number per second [1/s], near the liquid (alpha > 1e-3) and anywhere.

@@ -23,6 +23,7 @@ struct Fluid::Fields {
   Foam::surfaceScalarField phi;      // eps u . S [m3/s]
   Foam::surfaceScalarField rho_phi;  // mass flux of the last interface step [kg/s]
   Foam::volScalarField p_rgh;   // p - rho g.(x - x_top) [Pa]
+  Foam::volScalarField p_predicted;  // the same, of the prediction for the beads [Pa]
   Foam::volScalarField gh;      // g.(x - x_top) [m2/s2]
   Foam::surfaceScalarField ghf;
   Foam::volVectorField grad_p;  // full pressure gradient, as the fluid felt it [Pa/m]
@@ -43,6 +44,9 @@ Foam::tmp<Foam::volScalarField> effective_viscosity(const Fluid::Fields& fields)
 
 // One step of momentum and pressure: updates U, phi, p_rgh, grad_p, boundary_force. eps holds the new value.
 void solve_momentum_and_pressure(Fluid::Fields& fields);
+
+// The prediction of Fluid::predict_pressure_gradient.
+Foam::tmp<Foam::volVectorField> predict_pressure_gradient(Fluid::Fields& fields, double dt, const BeadInertia& beads);
 
 // One step of the liquid: updates alpha, rho, rho_phi with the flux phi.
 void solve_interface(Fluid::Fields& fields);

@@ -15,9 +15,11 @@ namespace demvof {
 
 namespace {
 
-constexpr double start_packing = 0.48;    // of the dispersed beads before they settle [-]
+constexpr double start_packing = 0.52;    // of the dispersed beads before they settle [-]
 constexpr double surplus = 1.10;          // beads taken more than the column needs; cut off at the end
 constexpr double relaxation_time = 0.02;  // of the drag while settling [s]
+constexpr double nearly_still = 0.10;     // ends the settling with the friction of the preparation
+constexpr double quite_still = 0.02;      // ends the settling with that of the run; the hold does the rest
 constexpr double longest_settling = 1.5;  // [s]
 
 double bead_volume(double diameter) { return std::numbers::pi / 6.0 * diameter * diameter * diameter; }
@@ -28,17 +30,18 @@ double rms_speed(const BeadState& state) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, state.count())));
 }
 
-void settle(BeadEngine& engine) {
+// Runs until the rms speed is below `still`, in units of sqrt(g' d).
+void settle(BeadEngine& engine, double still_share) {
   FluidLoad load;
   load.resize(engine.state().count());
   std::fill(load.coefficient.begin(), load.coefficient.end(), engine.bead_mass() / relaxation_time);
   engine.set_load(load);
-  const double still = 0.02 * std::sqrt(engine.settings().gravity * engine.settings().diameter);
+  const double still = still_share * std::sqrt(engine.settings().gravity * engine.settings().diameter);
   const int burst = static_cast<int>(std::lround(0.01 / engine.settings().dt));
   const double start = engine.time();
   for (int n = 0; engine.time() - start < longest_settling; ++n) {
     engine.run(burst);
-    if (n > 4 && rms_speed(engine.state()) < still) return;
+    if (n > 1 && rms_speed(engine.state()) < still) return;
   }
   throw std::runtime_error(fmt::format("the column does not come to rest: {:.3g} m/s after {} s",
                                        rms_speed(engine.state()), longest_settling));
@@ -92,9 +95,9 @@ Column prepare_column(const ColumnSettings& s) {
   if (!s.suspended) {
     BeadEngine engine(engine_settings, gas, floor);
     engine.set_gravity(s.buoyant_gravity);
-    settle(engine);
+    settle(engine, nearly_still);
     engine.set_contact_law(s.final_law);
-    settle(engine);
+    settle(engine, quite_still);
     column.residual_speed = rms_speed(engine.state());
     settled = engine.state().position;
   }

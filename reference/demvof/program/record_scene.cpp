@@ -135,6 +135,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   CouplingSettings coupling;
   coupling.fluid_dt = scene.reference->fluid_dt;
   coupling.drag = scene.model.drag;
+  coupling.predict_pressure = scene.solid.density < 1.5 * scene.liquid.density;
   BeadState beads;
   beads.position = column.position;
   CoupledRun run(coupling, bead_settings(scene, scratch), beads, floor, fluid, initial_alpha(scene, fluid));
