@@ -65,11 +65,24 @@ def program(build_dir):
     return path
 
 
-def current_hash(demvof, scene):
+def current_hashes(demvof, scene):
+    """Hash of what the reference depends on, and of the whole case."""
     result = subprocess.run([demvof, "hash", ROOT / f"cases/{scene}.toml"], capture_output=True, text=True)
     if result.returncode:
         raise RecordError(f"cases/{scene}.toml: {result.stderr.strip()}")
-    return result.stdout.split()[-1]
+    return result.stdout.split()[-2:]
+
+
+def run_of(directory):
+    """Which run of which case a run directory of demvof holds: Run, case hash."""
+    try:
+        facts = json.loads((directory / "run.json").read_text())
+        if facts["program"] != "demvof":
+            raise RecordError(f"{directory} is a run of {facts['program']}, not of demvof")
+        run = Run(facts["scene"], int(facts["monitors"]["seed"]), "--gate-closed" in facts["command"])
+        return run, facts["case_hash"]
+    except (OSError, ValueError, KeyError) as error:
+        raise RecordError(f"{directory} holds no run of demvof: {error}") from error
 
 
 def state(run, case_hash, results=RESULTS):

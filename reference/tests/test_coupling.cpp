@@ -1,10 +1,10 @@
 // Beads and fluid together, against theory.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "reference/demvof/coupling/coupled_run.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
@@ -33,7 +33,8 @@ TankSetup tank(int nx, int ny, double cell, double depth, FluidSide top) {
   TankSetup s;
   s.fluid.cells = {{nx, ny, 1}};
   s.fluid.spacing = {{cell, cell, depth}};
-  s.fluid.sides = {{FluidSide::slip, FluidSide::slip, FluidSide::slip, top, FluidSide::empty, FluidSide::empty}};
+  s.fluid.sides = {
+      {FluidSide::slip, FluidSide::slip, FluidSide::slip, top, FluidSide::empty, FluidSide::empty}};
   s.fluid.large_eddy = false;
   s.fluid.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
   s.beads.tank = {nx * cell, ny * cell, depth};
@@ -92,7 +93,8 @@ TEST(Coupling, MomentumOfBeadsFluidAndWallsIsBalanced) {
   TankSetup s = tank(16, 16, 2.5e-3, 4e-3, FluidSide::slip);
   s.fluid.gravity = s.beads.gravity = 0.0;
   std::mt19937 random(1);
-  const auto position = demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
+  const auto position =
+      demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
   CoupledRun run = start(s, position);
   std::vector<double> velocity(position.size(), 0.0);
   for (std::size_t n = 0; n < velocity.size(); n += 3) velocity[n] = 0.2;
@@ -141,7 +143,8 @@ TEST(Coupling, HinderedSettling) {
   EXPECT_NEAR(settled, (1.0 - f_s) * slip_of_law, 0.10 * slip_of_law);
 }
 
-// Beads falling steadily in a column carry all their submerged weight by the pressure of the water below them.
+// Beads falling steadily in a column carry all their submerged weight by the pressure of the water below
+// them.
 TEST(Coupling, FallingBedLoadsThePoreWaterWithItsSubmergedWeight) {
   TankSetup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::open);
   std::mt19937 random(2);
@@ -165,7 +168,8 @@ TEST(LightBeads, PredictionKeepsTheBalanceOfMomentum) {
   s.fluid.gravity = s.beads.gravity = 0.0;
   s.beads.density = 400.0;
   std::mt19937 random(1);
-  const auto position = demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
+  const auto position =
+      demvof::disperse_beads(200, {0.014, 0.014, 0.0}, {0.026, 0.026, 4e-3}, true, d, random);
   CoupledRun run = start(s, position, 2e-4, true);
   std::vector<double> velocity(position.size(), 0.0);
   for (std::size_t n = 0; n < velocity.size(); n += 3) velocity[n] = 0.2;
@@ -195,10 +199,10 @@ TEST(LightBeads, ALoneBeadRisesAtItsTerminalSpeed) {
 struct FloatingBed {
   static constexpr double diameter = 2e-3, density = 200.0;
   std::size_t count = 0;
-  double fastest = 0.0;       // over the run [m/s]
-  double liquid_change = 0.0; // [-]
-  double mean_velocity = 0.0; // at the end [m/s]
-  double lift = 0.0;          // force of the pressure on the bed at the end, over its weight [-]
+  double fastest = 0.0;        // over the run [m/s]
+  double liquid_change = 0.0;  // [-]
+  double mean_velocity = 0.0;  // at the end [m/s]
+  double lift = 0.0;           // force of the pressure on the bed at the end, over its weight [-]
 
   explicit FloatingBed(bool predict_pressure) {
     TankSetup s = tank(2, 32, 5e-3, 0.01, FluidSide::open);
@@ -209,7 +213,8 @@ struct FloatingBed {
     std::mt19937 random(1);
     count = static_cast<std::size_t>(0.5 * 0.01 * 0.05 * 0.01 / volume);
     BeadState beads;
-    beads.position = demvof::disperse_beads(count, {0, 0.065, 0}, {0.01, 0.115, 0.01}, true, diameter, random);
+    beads.position =
+        demvof::disperse_beads(count, {0, 0.065, 0}, {0.01, 0.115, 0.01}, true, diameter, random);
     std::vector<double> alpha;
     for (int j = 0; j < 32; ++j) alpha.insert(alpha.end(), 2, j < 16 ? 1.0 : 0.0);
     demvof::CouplingSettings coupling;

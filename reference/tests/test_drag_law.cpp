@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <gtest/gtest.h>
 
 #include "reference/demvof/coupling/drag_law.hpp"
 #include "solver/closures/drag.hpp"
@@ -31,7 +31,8 @@ TEST(DragLaw, AgreesWithTheContinuumsClosure) {
   for (const double f_s : {0.01, 0.15, 0.19, 0.2, 0.21, 0.3, 0.6}) {
     for (const double slip : {0.0, 1e-3, 0.1, 2.0}) {
       for (const double alpha : {0.0, 0.3, 1.0}) {
-        const double continuum = granvof::closures::drag_coefficient(f_s, alpha, slip, gas, liquid, d) / f_s * volume;
+        const double continuum =
+            granvof::closures::drag_coefficient(f_s, alpha, slip, gas, liquid, d) / f_s * volume;
         EXPECT_NEAR(demvof::bead_drag(f_s, alpha, slip, air, water, d), continuum, 1e-9 * continuum)
             << f_s << ' ' << slip << ' ' << alpha;
       }

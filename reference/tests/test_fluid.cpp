@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
+
+#include <gtest/gtest.h>
 
 #include "reference/demvof/fluid/fluid.hpp"
 
@@ -33,7 +33,8 @@ BeadLoad no_beads(std::size_t cells) {
 std::vector<double> filled_to(const FluidSettings& s, double level, int columns) {
   std::vector<double> alpha;
   for (int j = 0; j < s.cells[1]; ++j)
-    for (int i = 0; i < s.cells[0]; ++i) alpha.push_back(i < columns && j * s.spacing[1] < level - 1e-9 ? 1.0 : 0.0);
+    for (int i = 0; i < s.cells[0]; ++i)
+      alpha.push_back(i < columns && j * s.spacing[1] < level - 1e-9 ? 1.0 : 0.0);
   return alpha;
 }
 

@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <numeric>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "reference/demvof/coupling/mapping.hpp"
 
@@ -17,7 +17,9 @@ std::vector<double> random_positions(std::size_t count, const demvof::Vector& si
   return x;
 }
 
-double total(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+double total(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0);
+}
 
 }  // namespace
 
@@ -36,7 +38,8 @@ TEST(Mapping, GatherIsTheTransposeOfDeposit) {
   mapping.update(random_positions(200, {0.8, 1.0, 0.3}));
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  std::vector<double> cells(mapping.cell_count()), beads(200), gathered(200), deposited(mapping.cell_count(), 0.0);
+  std::vector<double> cells(mapping.cell_count()), beads(200), gathered(200),
+      deposited(mapping.cell_count(), 0.0);
   for (double& v : cells) v = normal(random);
   for (double& v : beads) v = normal(random);
   mapping.gather(cells, 1, 0, gathered);

@@ -1,9 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "reference/demvof/preparation/column.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
@@ -40,7 +40,8 @@ demvof::ColumnSettings small_column() {
 
 TEST(Disperse, FillsHalfOfTheBoxWithoutOverlap) {
   std::mt19937 random(1);
-  const auto count = static_cast<std::size_t>(0.5 * 0.02 * 0.01 * 0.004 / (std::numbers::pi / 6.0 * d * d * d));
+  const auto count =
+      static_cast<std::size_t>(0.5 * 0.02 * 0.01 * 0.004 / (std::numbers::pi / 6.0 * d * d * d));
   const auto x = demvof::disperse_beads(count, {0, 0, 0}, {0.02, 0.01, 0.004}, true, d, random);
   EXPECT_EQ(x.size(), 3 * count);
   EXPECT_LT(deepest_overlap(x, 0.004, false), 0.01 * d);

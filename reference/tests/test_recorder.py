@@ -18,7 +18,8 @@ RUN = recorder.Run("s1", 2)
 def finished_run(folder, exit_state="finished"):
     folder.mkdir()
     (folder / "series.csv").write_text("time [s]\n0\n1\n")
-    (folder / "run.json").write_text(json.dumps({"case_hash": "solver's", "exit": {"state": exit_state, "reason": "at t = 3"}}))
+    (folder / "run.json").write_text(json.dumps({"program": "demvof", "scene": "s1", "case_hash": "solver's",
+                                               "command": "demvof run --gate-closed", "monitors": {"seed": 2.0}, "exit": {"state": exit_state, "reason": "at t = 3"}}))
     with h5py.File(folder / "fields.h5", "w") as file:
         file.attrs["scene"] = "s1"
         for n in range(9):
@@ -61,6 +62,12 @@ def test_a_run_that_blew_up_leaves_no_record(tmp_path):
     with pytest.raises(recorder.RecordError, match="at t = 3"):
         recorder.make_record(RUN, finished_run(tmp_path / "run", "failed"), "abc", tmp_path)
     assert recorder.state(RUN, "abc", tmp_path) == "missing"
+
+
+def test_a_run_directory_says_which_run_it_holds(tmp_path):
+    assert recorder.run_of(finished_run(tmp_path / "run")) == (recorder.Run("s1", 2, True), "solver's")
+    with pytest.raises(recorder.RecordError, match="no run of demvof"):
+        recorder.run_of(tmp_path)
 
 
 def test_control_runs_are_kept_apart(tmp_path):

@@ -1,12 +1,12 @@
 #include "reference/demvof/beads/bead_engine.hpp"
 
-#include <fmt/format.h>
-#include <mpi.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
+
+#include <fmt/format.h>
+#include <mpi.h>
+#include <unistd.h>
 
 #include "liggghts/library.h"
 #include "liggghts/library_cfd_coupling.h"
@@ -18,7 +18,9 @@ namespace {
 
 constexpr const char* contact = "gran model hertz tangential history";
 
-std::string three(double a, double b, double c) { return fmt::format("{} {} {}", a, b, c); }
+std::string three(double a, double b, double c) {
+  return fmt::format("{} {} {}", a, b, c);
+}
 
 }  // namespace
 
@@ -97,18 +99,20 @@ void BeadEngine::command(const std::string& line) {
 void BeadEngine::declare_materials() {
   const ContactLaw& law = settings_.law;
   const double bead = law.bead_friction, wall = law.wall_friction, e = law.restitution;
-  command("fix young all property/global youngsModulus peratomtype " + three(law.young, law.young, law.young));
+  command("fix young all property/global youngsModulus peratomtype " +
+          three(law.young, law.young, law.young));
   command("fix poisson all property/global poissonsRatio peratomtype " +
           three(law.poisson, law.poisson, law.poisson));
   const std::string row = three(e, e, e);
-  command(fmt::format("fix restitution all property/global coefficientRestitution peratomtypepair 3 {} {} {}", row,
-                      row, row));
+  command(fmt::format("fix restitution all property/global coefficientRestitution peratomtypepair 3 {} {} {}",
+                      row, row, row));
   command(fmt::format("fix friction all property/global coefficientFriction peratomtypepair 3 {} {} {}",
                       three(bead, bead, wall), three(bead, bead, wall), three(wall, wall, wall)));
   if (rolling_) {
     const std::string rolling = three(law.rolling_friction, law.rolling_friction, law.rolling_friction);
-    command(fmt::format("fix rolling all property/global coefficientRollingFriction peratomtypepair 3 {} {} {}",
-                        rolling, rolling, rolling));
+    command(
+        fmt::format("fix rolling all property/global coefficientRollingFriction peratomtypepair 3 {} {} {}",
+                    rolling, rolling, rolling));
   }
 }
 
@@ -138,7 +142,8 @@ void BeadEngine::declare_gate() {
 
 void BeadEngine::set_gravity(double gravity) {
   settings_.gravity = gravity;
-  command(fmt::format("fix gravity mobile gravity {} vector 0 {} 0", std::abs(gravity), gravity < 0.0 ? 1 : -1));
+  command(
+      fmt::format("fix gravity mobile gravity {} vector 0 {} 0", std::abs(gravity), gravity < 0.0 ? 1 : -1));
   set_up_ = false;
 }
 
@@ -194,8 +199,9 @@ void BeadEngine::run(int steps) {
 
 void BeadEngine::refresh_state() {
   if (static_cast<std::size_t>(lammps_get_natoms(lammps_)) != mobile_ + frozen_) {
-    throw std::runtime_error(fmt::format("{} beads have left the tank",
-                                         mobile_ + frozen_ - static_cast<std::size_t>(lammps_get_natoms(lammps_))));
+    throw std::runtime_error(
+        fmt::format("{} beads have left the tank",
+                    mobile_ + frozen_ - static_cast<std::size_t>(lammps_get_natoms(lammps_))));
   }
   gathered_.resize(3 * (mobile_ + frozen_));
   std::string x = "x", v = "v";
@@ -210,6 +216,8 @@ double BeadEngine::bead_volume() const {
   return std::numbers::pi / 6.0 * d * d * d;
 }
 
-double BeadEngine::bead_mass() const { return settings_.density * bead_volume(); }
+double BeadEngine::bead_mass() const {
+  return settings_.density * bead_volume();
+}
 
 }  // namespace demvof

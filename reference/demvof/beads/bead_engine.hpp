@@ -1,7 +1,7 @@
 // The bead side of demvof: LIGGGHTS as a library.
 //
-// Mobile beads move, are pulled by gravity and carry the load of the fluid. Frozen beads only stand in the way:
-// they make a floor rough. The engine's z is periodic or walled; x and y are walled.
+// Mobile beads move, are pulled by gravity and carry the load of the fluid. Frozen beads only stand in the
+// way: they make a floor rough. The engine's z is periodic or walled; x and y are walled.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace demvof {
 
-// Force of the fluid on a mobile bead during the next run(): force + coefficient (velocity - u_bead), the drag
-// part evaluated anew every DEM step.
+// Force of the fluid on a mobile bead during the next run(): force + coefficient (velocity - u_bead), the
+// drag part evaluated anew every DEM step.
 struct FluidLoad {
   std::vector<double> coefficient;  // one a bead [kg/s]
   std::vector<double> velocity;     // three a bead: fluid at the bead [m/s]
@@ -24,7 +24,8 @@ struct FluidLoad {
 class BeadEngine {
  public:
   // Throws std::runtime_error when the scratch folder cannot be written. MPI must be initialised.
-  BeadEngine(const BeadSettings& settings, const BeadState& mobile, const std::vector<double>& frozen_positions);
+  BeadEngine(const BeadSettings& settings, const BeadState& mobile,
+             const std::vector<double>& frozen_positions);
   ~BeadEngine();
   BeadEngine(const BeadEngine&) = delete;
   BeadEngine& operator=(const BeadEngine&) = delete;

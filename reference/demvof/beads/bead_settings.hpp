@@ -21,16 +21,16 @@ struct ContactLaw {
 };
 
 struct BeadSettings {
-  Vector tank{};                // inner size [m]; y is up
-  bool periodic_depth = true;   // z joined to itself; otherwise walls at 0 and tank[2]
-  double diameter = 0.0;        // [m]
-  double density = 0.0;         // [kg/m3]
+  Vector tank{};               // inner size [m]; y is up
+  bool periodic_depth = true;  // z joined to itself; otherwise walls at 0 and tank[2]
+  double diameter = 0.0;       // [m]
+  double density = 0.0;        // [kg/m3]
   ContactLaw law;
-  double dt = 1e-5;             // [s]
-  double gravity = 9.81;        // along -y [m/s2]; negative pulls up
-  std::optional<double> gate;   // x of a vertical plate over the whole depth [m]
-  double gate_height = 0.0;     // upper edge of the plate at the start [m]
-  std::string scratch_folder;   // for the files that LIGGGHTS reads
+  double dt = 1e-5;            // [s]
+  double gravity = 9.81;       // along -y [m/s2]; negative pulls up
+  std::optional<double> gate;  // x of a vertical plate over the whole depth [m]
+  double gate_height = 0.0;    // upper edge of the plate at the start [m]
+  std::string scratch_folder;  // for the files that LIGGGHTS reads
 };
 
 // Positions and velocities, three numbers a bead: x, y, z of bead 0, of bead 1, ...

@@ -1,11 +1,11 @@
 #include "reference/demvof/beads/input_files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace demvof {
 
@@ -38,8 +38,8 @@ void write_beads(const std::string& path, const BeadSettings& s, const BeadState
   std::size_t id = 0;
   const auto write = [&](const std::vector<double>& x, int type) {
     for (std::size_t i = 0; i + 2 < x.size(); i += 3) {
-      file << fmt::format("{} {} {} {} {:.9g} {:.9g} {:.9g}\n", ++id, type, s.diameter, s.density, x[i], x[i + 1],
-                          x[i + 2]);
+      file << fmt::format("{} {} {} {} {:.9g} {:.9g} {:.9g}\n", ++id, type, s.diameter, s.density, x[i],
+                          x[i + 1], x[i + 2]);
     }
   };
   write(mobile.position, 1);
@@ -50,8 +50,8 @@ void write_beads(const std::string& path, const BeadSettings& s, const BeadState
 
 void write_gate(const std::string& path, const BeadSettings& s) {
   const double x = s.gate.value();
-  // LIGGGHTS refuses corners that lie on the periodic boundary, and a few long triangles beside it; the slit that
-  // remains is far below a bead.
+  // LIGGGHTS refuses corners that lie on the periodic boundary, and a few long triangles beside it; the slit
+  // that remains is far below a bead.
   const double near = 1e-3 * s.diameter, far = s.tank[2] - near;
   const int across = std::max(1, static_cast<int>(std::lround(s.tank[2] / (3.0 * s.diameter))));
   const int up = std::max(1, static_cast<int>(std::lround(s.gate_height / (3.0 * s.diameter))));

@@ -8,7 +8,7 @@ namespace demvof {
 
 namespace {
 
-constexpr double courant_limit = 0.5;       // of the liquid, per fluid step: MULES is explicit
+constexpr double courant_limit = 0.5;        // of the liquid, per fluid step: MULES is explicit
 constexpr double least_void_fraction = 0.2;  // below it beads overlap: the run is lost
 
 std::vector<double> void_fraction(const std::vector<double>& solid_fraction) {
@@ -205,7 +205,8 @@ Vector CoupledRun::momentum() const {
   const std::vector<double>& velocity = beads_->state().velocity;
   const double mass = beads_->bead_mass();
   for (std::size_t n = 0; n < velocity.size(); ++n) {
-    // With a prediction only what it missed is still owed; without, the whole pressure of the last fluid step.
+    // With a prediction only what it missed is still owed; without, the whole pressure of the last fluid
+    // step.
     const double owed = settings_.predict_pressure ? load_.force[n] - predicted_[n] : load_.force[n];
     total[n % 3] += mass * velocity[n] + carry_[n] + owed * last_duration_;
   }

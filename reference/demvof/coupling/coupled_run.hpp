@@ -1,10 +1,10 @@
 // Beads and fluid advanced together, momentum handed over as impulses.
 //
-// One step of length T: beads move under the pressure gradient and drag of the last fluid step; the impulse that
-// each bead took through drag is K (u_f T - dx), dx its displacement, since the drag was re-evaluated every DEM
-// step; the fluid gets its opposite, and the new void fraction. The implicit part of the fluid's drag,
-// K (u_f,new - u_f,old) T, is handed to the beads in the next step, so that over a run the two sides exchange
-// exactly what they lose and gain but for one step's lag.
+// One step of length T: beads move under the pressure gradient and drag of the last fluid step; the impulse
+// that each bead took through drag is K (u_f T - dx), dx its displacement, since the drag was re-evaluated
+// every DEM step; the fluid gets its opposite, and the new void fraction. The implicit part of the fluid's
+// drag, K (u_f,new - u_f,old) T, is handed to the beads in the next step, so that over a run the two sides
+// exchange exactly what they lose and gain but for one step's lag.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,9 @@ namespace demvof {
 struct CouplingSettings {
   double fluid_dt = 2e-4;  // longest fluid step [s]; shortened where the liquid would move half a cell
   bool drag = true;        // false: pressure gradient alone
-  // Pressure on the beads predicted with their inertia in the equation, instead of that of the last fluid step. Needed
-  // where (f_s / rho_s) / (f_c / rho_c) exceeds about 1: beads not much heavier than the liquid. What the prediction
-  // missed is handed over in the next step.
+  // Pressure on the beads predicted with their inertia in the equation, instead of that of the last fluid
+  // step. Needed where (f_s / rho_s) / (f_c / rho_c) exceeds about 1: beads not much heavier than the liquid.
+  // What the prediction missed is handed over in the next step.
   bool predict_pressure = false;
 };
 
@@ -48,8 +48,8 @@ class CoupledRun {
   const std::vector<double>& solid_fraction() const { return solid_fraction_; }
   const Mapping& mapping() const { return mapping_; }
   const FluidLoad& load() const { return load_; }
-  // Momentum of beads and fluid [kg m/s]; what is on its way between them (drag carried over, the pressure of the
-  // last fluid step) counts with the beads.
+  // Momentum of beads and fluid [kg m/s]; what is on its way between them (drag carried over, the pressure of
+  // the last fluid step) counts with the beads.
   Vector momentum() const;
 
  private:

@@ -30,8 +30,8 @@ double bead_drag(double f_s, double slip, const PhaseProperties& fluid, double d
   return per_solid_volume * std::numbers::pi / 6.0 * diameter * diameter * diameter;
 }
 
-double bead_drag(double f_s, double alpha, double slip, const PhaseProperties& gas, const PhaseProperties& liquid,
-                 double diameter) {
+double bead_drag(double f_s, double alpha, double slip, const PhaseProperties& gas,
+                 const PhaseProperties& liquid, double diameter) {
   return alpha * bead_drag(f_s, slip, liquid, diameter) + (1.0 - alpha) * bead_drag(f_s, slip, gas, diameter);
 }
 

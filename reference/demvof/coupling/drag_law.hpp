@@ -1,8 +1,8 @@
 // Drag of one bead, eqs (8) and (9), written independently of the continuum solver's closures.
 //
-// beta / f_s of (8) times the bead's volume gives the coefficient of (u_c - u_s) on one bead [kg/s]: finite as
-// f_s -> 0. The printed branches do not meet at f_c = 0.8; they are blended linearly over f_c in [0.78, 0.82],
-// as the continuum does, so that both programs mean the same law.
+// beta / f_s of (8) times the bead's volume gives the coefficient of (u_c - u_s) on one bead [kg/s]: finite
+// as f_s -> 0. The printed branches do not meet at f_c = 0.8; they are blended linearly over f_c in [0.78,
+// 0.82], as the continuum does, so that both programs mean the same law.
 #pragma once
 
 namespace demvof {
@@ -16,7 +16,7 @@ struct PhaseProperties {
 double bead_drag(double f_s, double slip, const PhaseProperties& fluid, double diameter);
 
 // The share alpha of liquid and 1 - alpha of gas.
-double bead_drag(double f_s, double alpha, double slip, const PhaseProperties& gas, const PhaseProperties& liquid,
-                 double diameter);
+double bead_drag(double f_s, double alpha, double slip, const PhaseProperties& gas,
+                 const PhaseProperties& liquid, double diameter);
 
 }  // namespace demvof

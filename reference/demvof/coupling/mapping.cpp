@@ -60,7 +60,8 @@ void Mapping::update(const std::vector<double>& position) {
   }
 }
 
-void Mapping::deposit(const std::vector<double>& values, int stride, int offset, std::vector<double>& cells) const {
+void Mapping::deposit(const std::vector<double>& values, int stride, int offset,
+                      std::vector<double>& cells) const {
   std::size_t in = 0;
   for (std::size_t bead = 0; bead < beads_; ++bead) {
     const double value = values[bead * static_cast<std::size_t>(stride) + static_cast<std::size_t>(offset)];
@@ -76,7 +77,8 @@ void Mapping::deposit(double value, std::vector<double>& cells) const {
   }
 }
 
-void Mapping::gather(const std::vector<double>& cells, int stride, int offset, std::vector<double>& values) const {
+void Mapping::gather(const std::vector<double>& cells, int stride, int offset,
+                     std::vector<double>& values) const {
   std::size_t in = 0;
   for (std::size_t bead = 0; bead < beads_; ++bead) {
     double sum = 0.0;

@@ -1,8 +1,8 @@
 // Bilinear mapping between beads and cells: the one mapping for void fraction, drag, gathering and metrics.
 //
 // A bead shares itself among the cell centres around it (4 in two dimensions, 8 in three). Weights that would
-// fall outside the tank, or across a closed gate, go to the cell on the bead's own side, so that their sum is 1
-// everywhere: what is deposited is what the bead has, and gather is the transpose of deposit.
+// fall outside the tank, or across a closed gate, go to the cell on the bead's own side, so that their sum is
+// 1 everywhere: what is deposited is what the bead has, and gather is the transpose of deposit.
 #pragma once
 
 #include <array>

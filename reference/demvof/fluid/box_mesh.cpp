@@ -71,7 +71,8 @@ std::unique_ptr<Foam::fvMesh> make_box_mesh(const FluidSettings& s, const Foam::
     for (label k = 0; k < n[2]; ++k)
       for (label j = 0; j < n[1]; ++j)
         for (label i = 0; i < n[0]; ++i) {
-          const label x = d == 0 && upper ? b.nx : i, y = d == 1 && upper ? b.ny : j, z = d == 2 && upper ? b.nz : k;
+          const label x = d == 0 && upper ? b.nx : i, y = d == 1 && upper ? b.ny : j,
+                      z = d == 2 && upper ? b.nz : k;
           const face f = d == 0 ? x_face(b, x, y, z) : d == 1 ? y_face(b, x, y, z) : z_face(b, x, y, z);
           faces.append(upper ? f : f.reverseFace());
           const label last[3] = {d == 0 && upper ? b.nx - 1 : i, d == 1 && upper ? b.ny - 1 : j,
@@ -91,7 +92,9 @@ std::unique_ptr<Foam::fvMesh> make_box_mesh(const FluidSettings& s, const Foam::
   const char* const names[6] = {"left", "right", "bottom", "top", "front", "back"};
   Foam::List<Foam::polyPatch*> patches(6);
   for (int side = 0; side < 6; ++side) {
-    const char* type = s.sides[side] == FluidSide::empty ? "empty" : s.sides[side] == FluidSide::open ? "patch" : "wall";
+    const char* type = s.sides[side] == FluidSide::empty  ? "empty"
+                       : s.sides[side] == FluidSide::open ? "patch"
+                                                          : "wall";
     patches[side] =
         Foam::polyPatch::New(type, names[side], size[side], start[side], side, mesh->boundaryMesh()).ptr();
   }

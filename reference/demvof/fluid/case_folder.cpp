@@ -1,10 +1,10 @@
 #include "reference/demvof/fluid/case_folder.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <stdexcept>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace demvof {
 

@@ -16,7 +16,8 @@ std::string message_of(const error& problem) {
 
 }  // namespace
 
-Fluid::Fluid(const FluidSettings& settings, const std::vector<double>& alpha, const std::vector<double>& void_fraction) {
+Fluid::Fluid(const FluidSettings& settings, const std::vector<double>& alpha,
+             const std::vector<double>& void_fraction) {
   try {
     fields_ = std::make_unique<Fields>(settings, alpha, void_fraction);
   } catch (const error& problem) {
@@ -30,7 +31,9 @@ Fluid::Fluid(const FluidSettings& settings, const std::vector<double>& alpha, co
 
 Fluid::~Fluid() = default;
 
-double Fluid::time() const { return fields_->time.value(); }
+double Fluid::time() const {
+  return fields_->time.value();
+}
 
 void Fluid::set_gate(int face, const std::vector<double>& open) {
   Fields& f = *fields_;
@@ -128,11 +131,13 @@ double Fluid::liquid_volume() const {
 
 Vector Fluid::momentum() const {
   const Fields& f = *fields_;
-  const vector total =
-      f.cell_volume() * sum(f.eps.oldTime().primitiveField() * f.rho.oldTime().primitiveField() * f.U.primitiveField());
+  const vector total = f.cell_volume() * sum(f.eps.oldTime().primitiveField() *
+                                             f.rho.oldTime().primitiveField() * f.U.primitiveField());
   return {{total.x(), total.y(), total.z()}};
 }
 
-double Fluid::largest_speed() const { return max(mag(fields_->U.primitiveField())); }
+double Fluid::largest_speed() const {
+  return max(mag(fields_->U.primitiveField()));
+}
 
 }  // namespace demvof

@@ -2,8 +2,8 @@
 //
 // Equations (volume-averaged, pressure shared by both phases):
 //   d(eps)/dt + div(eps u) = 0,   eps = 1 - f_s given by the beads
-//   d(eps rho u)/dt + div(eps rho u u) = -eps grad p + div(eps (mu + mu_t)(grad u + grad u^T)) + eps rho g + F
-//   d(eps alpha)/dt + div(alpha eps u) = 0   (MULES, with the flux of the first equation)
+//   d(eps rho u)/dt + div(eps rho u u) = -eps grad p + div(eps (mu + mu_t)(grad u + grad u^T)) + eps rho g +
+//   F d(eps alpha)/dt + div(alpha eps u) = 0   (MULES, with the flux of the first equation)
 // F is the reaction to the drag on the beads, an explicit part plus an implicit part K (u_old - u_new).
 //
 // This header is free of OpenFOAM and of C++17, because OpenFOAM 1912 compiles as C++14 only.
@@ -22,43 +22,44 @@ using Vector = std::array<double, 3>;
 enum class FluidSide {
   no_slip,
   slip,
-  open,   // top only: p = 0 outside, gas flows in
-  empty   // front and back of a two-dimensional grid: no equation across
+  open,  // top only: p = 0 outside, gas flows in
+  empty  // front and back of a two-dimensional grid: no equation across
 };
 
 struct FluidSettings {
   std::array<int, 3> cells{{1, 1, 1}};  // nx, ny, nz; cell (i, j, k) has index (k ny + j) nx + i
   Vector spacing{};                     // [m]
   double gravity = 9.81;                // along -y [m/s2], >= 0
-  double gas_density = 1.0, liquid_density = 1000.0;    // [kg/m3]
-  double gas_viscosity = 1e-5, liquid_viscosity = 1e-3; // [Pa s]
-  bool large_eddy = true;               // mu_t of eq (10)
-  double smagorinsky = 0.18;            // C_s [-]
-  std::array<FluidSide, 6> sides{};     // left, right, bottom, top, front, back
-  std::string scratch_folder;           // where OpenFOAM's dictionaries are written; removed at the end
+  double gas_density = 1.0, liquid_density = 1000.0;     // [kg/m3]
+  double gas_viscosity = 1e-5, liquid_viscosity = 1e-3;  // [Pa s]
+  bool large_eddy = true;                                // mu_t of eq (10)
+  double smagorinsky = 0.18;                             // C_s [-]
+  std::array<FluidSide, 6> sides{};                      // left, right, bottom, top, front, back
+  std::string scratch_folder;  // where OpenFOAM's dictionaries are written; removed at the end
 };
 
 // What the beads see of the fluid, one value a cell.
 struct FluidView {
-  std::vector<double> alpha;              // liquid share [-]
-  std::vector<double> pressure;           // p [Pa], 0 at the open top
+  std::vector<double> alpha;                             // liquid share [-]
+  std::vector<double> pressure;                          // p [Pa], 0 at the open top
   std::array<std::vector<double>, 3> velocity;           // u [m/s]
   std::array<std::vector<double>, 3> pressure_gradient;  // grad p, hydrostatic part included [Pa/m]
 };
 
 // What the beads did to the fluid over the step, one value a cell.
 struct BeadLoad {
-  std::vector<double> void_fraction;           // eps at the end of the step, in (0, 1]
-  std::vector<double> drag_coefficient;        // K [kg/(m3 s)]
-  std::array<std::vector<double>, 3> force;    // explicit force density on the fluid [N/m3]
+  std::vector<double> void_fraction;         // eps at the end of the step, in (0, 1]
+  std::vector<double> drag_coefficient;      // K [kg/(m3 s)]
+  std::array<std::vector<double>, 3> force;  // explicit force density on the fluid [N/m3]
 };
 
 // The beads as the pressure prediction sees them, one value a cell.
 struct BeadInertia {
-  double density = 0.0;                         // rho_s [kg/m3]
-  std::vector<double> drag_coefficient;         // K [kg/(m3 s)]
-  std::array<std::vector<double>, 3> velocity;  // mean bead velocity; the fluid's where there are no beads [m/s]
-  std::array<std::vector<double>, 3> force;     // known force on the beads beside pressure, drag, weight [N/m3]
+  double density = 0.0;                  // rho_s [kg/m3]
+  std::vector<double> drag_coefficient;  // K [kg/(m3 s)]
+  std::array<std::vector<double>, 3>
+      velocity;                              // mean bead velocity; the fluid's where there are no beads [m/s]
+  std::array<std::vector<double>, 3> force;  // known force on the beads beside pressure, drag, weight [N/m3]
 };
 
 class Fluid {
@@ -67,21 +68,23 @@ class Fluid {
 
   // alpha and void_fraction: one value a cell at the start; the fluid is at rest.
   // Throws std::runtime_error with OpenFOAM's message when it refuses.
-  Fluid(const FluidSettings& settings, const std::vector<double>& alpha, const std::vector<double>& void_fraction);
+  Fluid(const FluidSettings& settings, const std::vector<double>& alpha,
+        const std::vector<double>& void_fraction);
   ~Fluid();
   Fluid(const Fluid&) = delete;
   Fluid& operator=(const Fluid&) = delete;
 
-  // A plate on the cell faces at x = face * spacing[0]: open[j] is the share of the face in row j through which
-  // fluid passes, 0 closed to 1 open. An empty vector removes the plate.
+  // A plate on the cell faces at x = face * spacing[0]: open[j] is the share of the face in row j through
+  // which fluid passes, 0 closed to 1 open. An empty vector removes the plate.
   void set_gate(int face, const std::vector<double>& open);
 
   // Advance by dt [s]. Throws std::runtime_error when a value is no longer finite.
   void step(double dt, const BeadLoad& load);
 
-  // Pressure gradient [Pa/m], one value a cell, under which fluid and beads together would keep the volume over the
-  // next dt, were the beads free of contacts: their inertia is part of the pressure equation, so that light beads
-  // do not overreact to a pressure that was made without them (added mass). Changes nothing in the fluid.
+  // Pressure gradient [Pa/m], one value a cell, under which fluid and beads together would keep the volume
+  // over the next dt, were the beads free of contacts: their inertia is part of the pressure equation, so
+  // that light beads do not overreact to a pressure that was made without them (added mass). Changes nothing
+  // in the fluid.
   std::array<std::vector<double>, 3> predict_pressure_gradient(double dt, const BeadInertia& beads);
 
   const FluidView& view() const { return view_; }
@@ -89,9 +92,9 @@ class Fluid {
   double courant_rate_liquid() const { return courant_liquid_; }
   double courant_rate() const { return courant_; }
   double time() const;
-  double liquid_volume() const;   // integral of eps alpha [m3]
-  Vector momentum() const;        // integral of eps rho u [kg m/s]
-  double largest_speed() const;   // [m/s]
+  double liquid_volume() const;  // integral of eps alpha [m3]
+  Vector momentum() const;       // integral of eps rho u [kg m/s]
+  double largest_speed() const;  // [m/s]
   // Force of the walls, the gate and the open top on the fluid over the last step [N], pressure and friction.
   Vector boundary_force() const { return boundary_force_; }
 

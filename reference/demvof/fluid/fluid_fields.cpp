@@ -26,10 +26,18 @@ wordList patch_types(const FluidSettings& s, const PatchTypes& types) {
   wordList list(6);
   for (int side = 0; side < 6; ++side) {
     switch (s.sides[side]) {
-      case FluidSide::no_slip: list[side] = types.no_slip; break;
-      case FluidSide::slip: list[side] = types.slip; break;
-      case FluidSide::open: list[side] = types.open; break;
-      case FluidSide::empty: list[side] = "empty"; break;
+      case FluidSide::no_slip:
+        list[side] = types.no_slip;
+        break;
+      case FluidSide::slip:
+        list[side] = types.slip;
+        break;
+      case FluidSide::open:
+        list[side] = types.open;
+        break;
+      case FluidSide::empty:
+        list[side] = "empty";
+        break;
     }
   }
   return list;
@@ -40,7 +48,9 @@ const PatchTypes liquid_share{"zeroGradient", "zeroGradient", "inletOutlet"};
 const PatchTypes velocity{"noSlip", "slip", "pressureInletOutletVelocity"};
 const PatchTypes pressure{"fixedFluxPressure", "fixedFluxPressure", "totalPressure"};
 
-IOobject named(const char* name, const fvMesh& mesh) { return IOobject(name, mesh.time().timeName(), mesh); }
+IOobject named(const char* name, const fvMesh& mesh) {
+  return IOobject(name, mesh.time().timeName(), mesh);
+}
 
 volScalarField scalar_field(const char* name, const fvMesh& mesh, const dimensionSet& dimensions,
                             const wordList& types) {
@@ -55,7 +65,8 @@ volScalarField filled(const char* name, const fvMesh& mesh, const wordList& type
   return field;
 }
 
-surfaceScalarField face_field(const char* name, const fvMesh& mesh, const dimensionSet& dimensions, double value) {
+surfaceScalarField face_field(const char* name, const fvMesh& mesh, const dimensionSet& dimensions,
+                              double value) {
   return surfaceScalarField(named(name, mesh), mesh, dimensionedScalar(name, dimensions, value));
 }
 
@@ -73,7 +84,8 @@ dictionary control() {
 
 }  // namespace
 
-Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0, const std::vector<double>& eps0)
+Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
+                      const std::vector<double>& eps0)
     : settings(s),
       folder(quiet(s.scratch_folder)),
       time(control(), fileName(folder.parent()), fileName(folder.name()), "system", "constant", false, false),

@@ -8,7 +8,8 @@
 namespace demvof {
 
 struct Fluid::Fields {
-  Fields(const FluidSettings& settings, const std::vector<double>& alpha, const std::vector<double>& void_fraction);
+  Fields(const FluidSettings& settings, const std::vector<double>& alpha,
+         const std::vector<double>& void_fraction);
 
   FluidSettings settings;
   CaseFolder folder;
@@ -16,22 +17,22 @@ struct Fluid::Fields {
   std::unique_ptr<Foam::fvMesh> mesh_owner;
   Foam::fvMesh& mesh;
 
-  Foam::volScalarField eps;     // void fraction [-]
-  Foam::volScalarField alpha;   // liquid share [-]
-  Foam::volScalarField rho;     // density of the continuous phase [kg/m3]
-  Foam::volVectorField U;       // velocity [m/s]
+  Foam::volScalarField eps;          // void fraction [-]
+  Foam::volScalarField alpha;        // liquid share [-]
+  Foam::volScalarField rho;          // density of the continuous phase [kg/m3]
+  Foam::volVectorField U;            // velocity [m/s]
   Foam::surfaceScalarField phi;      // eps u . S [m3/s]
   Foam::surfaceScalarField rho_phi;  // mass flux of the last interface step [kg/s]
-  Foam::volScalarField p_rgh;   // p - rho g.(x - x_top) [Pa]
+  Foam::volScalarField p_rgh;        // p - rho g.(x - x_top) [Pa]
   Foam::volScalarField p_predicted;  // the same, of the prediction for the beads [Pa]
-  Foam::volScalarField gh;      // g.(x - x_top) [m2/s2]
+  Foam::volScalarField gh;           // g.(x - x_top) [m2/s2]
   Foam::surfaceScalarField ghf;
-  Foam::volVectorField grad_p;  // full pressure gradient, as the fluid felt it [Pa/m]
-  Foam::volScalarField drag;    // K [kg/(m3 s)]
-  Foam::volVectorField force;   // explicit force density of the beads [N/m3]
+  Foam::volVectorField grad_p;    // full pressure gradient, as the fluid felt it [Pa/m]
+  Foam::volScalarField drag;      // K [kg/(m3 s)]
+  Foam::volVectorField force;     // explicit force density of the beads [N/m3]
   Foam::surfaceScalarField open;  // share of a face that a gate leaves open [-]
-  bool closed;                  // no open side: the pressure level is free
-  Vector boundary_force{};      // of the last step [N]
+  bool closed;                    // no open side: the pressure level is free
+  Vector boundary_force{};        // of the last step [N]
 
   Foam::dimensionedVector gravity() const {
     return Foam::dimensionedVector("g", Foam::dimAcceleration, Foam::vector(0, -settings.gravity, 0));
@@ -46,7 +47,8 @@ Foam::tmp<Foam::volScalarField> effective_viscosity(const Fluid::Fields& fields)
 void solve_momentum_and_pressure(Fluid::Fields& fields);
 
 // The prediction of Fluid::predict_pressure_gradient.
-Foam::tmp<Foam::volVectorField> predict_pressure_gradient(Fluid::Fields& fields, double dt, const BeadInertia& beads);
+Foam::tmp<Foam::volVectorField> predict_pressure_gradient(Fluid::Fields& fields, double dt,
+                                                          const BeadInertia& beads);
 
 // One step of the liquid: updates alpha, rho, rho_phi with the flux phi.
 void solve_interface(Fluid::Fields& fields);

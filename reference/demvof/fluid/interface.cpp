@@ -1,7 +1,6 @@
 // Transport of the liquid: van Leer and interface compression, limited by MULES, on the flux of continuity.
-#include "reference/demvof/fluid/fluid_fields.hpp"
-
 #include "CMULES.H"
+#include "reference/demvof/fluid/fluid_fields.hpp"
 
 namespace demvof {
 
@@ -16,13 +15,15 @@ void solve_interface(Fluid::Fields& f) {
   // Compression acts along the interface normal with the local speed (factor 1), not across walls.
   const surfaceVectorField gradient(fvc::interpolate(fvc::grad(alpha)));
   const dimensionedScalar small("small", dimless / dimLength, 1e-8 / std::cbrt(f.cell_volume()));
-  surfaceScalarField compression(mag(f.phi) * ((gradient / (mag(gradient) + small)) & mesh.Sf()) / mesh.magSf());
+  surfaceScalarField compression(mag(f.phi) * ((gradient / (mag(gradient) + small)) & mesh.Sf()) /
+                                 mesh.magSf());
   surfaceScalarField::Boundary& sides = compression.boundaryFieldRef();
   forAll(sides, patch) sides[patch] == 0.0;
 
   surfaceScalarField liquid_flux(
-      "alphaPhi", fvc::flux(f.phi, alpha, "div(phi,alpha)") +
-                      fvc::flux(-fvc::flux(-compression, 1.0 - alpha, "div(phirb,alpha)"), alpha, "div(phirb,alpha)"));
+      "alphaPhi",
+      fvc::flux(f.phi, alpha, "div(phi,alpha)") +
+          fvc::flux(-fvc::flux(-compression, 1.0 - alpha, "div(phirb,alpha)"), alpha, "div(phirb,alpha)"));
   MULES::explicitSolve(f.eps, alpha, f.phi, liquid_flux, oneField(), zeroField());
 
   f.rho_phi = liquid_flux * (liquid - gas) + f.phi * gas;

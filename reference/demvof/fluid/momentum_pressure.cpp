@@ -1,8 +1,7 @@
 // Momentum with implicit drag, and the pressure that gives the flux its divergence -d(eps)/dt.
-#include "reference/demvof/fluid/fluid_fields.hpp"
-
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "reference/demvof/fluid/fluid_fields.hpp"
 
 namespace demvof {
 
@@ -12,9 +11,10 @@ using namespace Foam;
 
 constexpr int pressure_corrections = 2;
 
-// Force of the boundary on the fluid: pressure on the patches, friction, momentum carried through the top, and
-// the pressure jump that a gate carries.
-Vector force_of_boundary(const Fluid::Fields& f, const volScalarField& mu, const surfaceScalarField& gate_jump) {
+// Force of the boundary on the fluid: pressure on the patches, friction, momentum carried through the top,
+// and the pressure jump that a gate carries.
+Vector force_of_boundary(const Fluid::Fields& f, const volScalarField& mu,
+                         const surfaceScalarField& gate_jump) {
   vector total = vector::zero;
   forAll(f.mesh.boundary(), patch) {
     if (f.mesh.boundary()[patch].type() == "empty") continue;
@@ -46,7 +46,7 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
   const surfaceScalarField mu_face(fvc::interpolate(f.eps * mu) * f.open);
 
   fvVectorMatrix equation(fvm::Sp(inertia, f.U) + fvm::div(f.rho_phi, f.U, "div(rhoPhi,U)") -
-                          fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
+                              fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
                           (inertia + fvc::div(f.rho_phi)) * U_old + f.drag * U_old +
                               fvc::div(f.eps * mu * dev2(T(fvc::grad(f.U))), "div(viscous)"));
 
@@ -54,8 +54,8 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
   const surfaceScalarField eps_face(fvc::interpolate(f.eps));
   const surfaceScalarField coefficient("Dp", eps_face * fvc::interpolate(rAU * f.eps));
   const volScalarField swelling((f.eps - f.eps.oldTime()) / dt);
-  // The beads' force acts on the faces, as gravity does: were it left in the cells, the pressure at a wall would not
-  // balance it, and the cells beside the wall would feel half of the gradient.
+  // The beads' force acts on the faces, as gravity does: were it left in the cells, the pressure at a wall
+  // would not balance it, and the cells beside the wall would feel half of the gradient.
   const surfaceScalarField bead_pull((fvc::interpolate(f.force) & mesh.Sf()) / eps_face);
   surfaceScalarField gate_jump("gateJump", 0.0 * f.ghf * fvc::interpolate(f.rho));
 
@@ -80,7 +80,8 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
     const volVectorField reconstructed(fvc::reconstruct(pull));
     f.U = HbyA + rAU * f.eps * (reconstructed + fvc::reconstruct(bead_pull));
     f.U.correctBoundaryConditions();
-    f.grad_p.primitiveFieldRef() = f.rho.primitiveField() * f.gravity().value() - reconstructed.primitiveField();
+    f.grad_p.primitiveFieldRef() =
+        f.rho.primitiveField() * f.gravity().value() - reconstructed.primitiveField();
     gate_jump = (pull - through) / mesh.magSf() / mesh.deltaCoeffs();
   }
   f.boundary_force = force_of_boundary(f, mu, gate_jump);

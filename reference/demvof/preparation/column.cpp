@@ -1,12 +1,12 @@
 #include "reference/demvof/preparation/column.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "reference/demvof/beads/bead_engine.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
@@ -22,7 +22,9 @@ constexpr double nearly_still = 0.10;     // ends the settling with the friction
 constexpr double quite_still = 0.02;      // ends the settling with that of the run; the hold does the rest
 constexpr double longest_settling = 1.5;  // [s]
 
-double bead_volume(double diameter) { return std::numbers::pi / 6.0 * diameter * diameter * diameter; }
+double bead_volume(double diameter) {
+  return std::numbers::pi / 6.0 * diameter * diameter * diameter;
+}
 
 double rms_speed(const BeadState& state) {
   double sum = 0.0;
@@ -63,7 +65,8 @@ double packing_inside(const std::vector<double>& position, const Vector& lower, 
 
 Column prepare_column(const ColumnSettings& s) {
   const double d = s.diameter;
-  const double length = s.upper[0] - s.lower[0], height = s.upper[1] - s.lower[1], depth = s.upper[2] - s.lower[2];
+  const double length = s.upper[0] - s.lower[0], height = s.upper[1] - s.lower[1],
+               depth = s.upper[2] - s.lower[2];
   const double volume = length * height * depth;
   const double wanted = s.packing * volume / bead_volume(d);
   const auto count = static_cast<std::size_t>(std::lround(s.suspended ? wanted : surplus * wanted));
@@ -73,9 +76,11 @@ Column prepare_column(const ColumnSettings& s) {
   BeadSettings engine_settings;
   const double bottom = s.floor.empty() ? 0.0 : 0.7 * d;
   const double top_of_gas =
-      s.suspended ? height : bottom + static_cast<double>(count) * bead_volume(d) / (start_packing * length * depth);
+      s.suspended ? height
+                  : bottom + static_cast<double>(count) * bead_volume(d) / (start_packing * length * depth);
   BeadState gas;
-  gas.position = disperse_beads(count, {0.0, bottom, 0.0}, {length, top_of_gas, depth}, s.periodic_depth, d, random);
+  gas.position =
+      disperse_beads(count, {0.0, bottom, 0.0}, {length, top_of_gas, depth}, s.periodic_depth, d, random);
   engine_settings.tank = {length, top_of_gas + d, depth};
   engine_settings.periodic_depth = s.periodic_depth;
   engine_settings.diameter = d;
@@ -87,7 +92,8 @@ Column prepare_column(const ColumnSettings& s) {
   std::vector<double> floor;
   for (std::size_t n = 0; n + 2 < s.floor.size(); n += 3) {
     const double x = s.floor[n] - s.lower[0];
-    if (x > 0.0 && x < length) floor.insert(floor.end(), {x, s.floor[n + 1] - s.lower[1], s.floor[n + 2] - s.lower[2]});
+    if (x > 0.0 && x < length)
+      floor.insert(floor.end(), {x, s.floor[n + 1] - s.lower[1], s.floor[n + 2] - s.lower[2]});
   }
 
   Column column;
@@ -109,16 +115,18 @@ Column prepare_column(const ColumnSettings& s) {
     for (std::size_t k = 0; k < 3; ++k) column.position.push_back(settled[n + k] + s.lower[k]);
   }
   if (filled < height - 0.5 * d) {
-    throw std::runtime_error(fmt::format("the beads settled to {:.4g} m of the wanted {:.4g} m; the packing of the "
-                                         "preparation exceeds the wanted one by more than {:.0f} %",
-                                         filled, height, 100.0 * (surplus - 1.0)));
+    throw std::runtime_error(
+        fmt::format("the beads settled to {:.4g} m of the wanted {:.4g} m; the packing of the "
+                    "preparation exceeds the wanted one by more than {:.0f} %",
+                    filled, height, 100.0 * (surplus - 1.0)));
   }
   column.height = top;
   const double edge = 3.0 * d, across = s.periodic_depth ? 0.0 : edge;
   const bool room = length > 4.0 * edge && height > 4.0 * edge;
   const double margin = room ? edge : 0.0;
-  column.packing = packing_inside(column.position, {s.lower[0] + margin, s.lower[1] + margin, s.lower[2] + across},
-                                  {s.upper[0] - margin, s.upper[1] - margin, s.upper[2] - across}, d);
+  column.packing =
+      packing_inside(column.position, {s.lower[0] + margin, s.lower[1] + margin, s.lower[2] + across},
+                     {s.upper[0] - margin, s.upper[1] - margin, s.upper[2] - across}, d);
   return column;
 }
 

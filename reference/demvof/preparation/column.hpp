@@ -1,9 +1,9 @@
 // Columns of beads at a wanted packing, from a seed.
 //
-// A settled column: beads dispersed at random fall under buoyant gravity, slowed by a drag that stands for the
-// liquid, with the friction of the preparation, which sets the packing; then they come to rest once more with the
-// friction of the run, and what stands above the wanted height is cut off.
-// A suspended column (below about 0.55 no pile is at rest): beads at random without contact and without velocity.
+// A settled column: beads dispersed at random fall under buoyant gravity, slowed by a drag that stands for
+// the liquid, with the friction of the preparation, which sets the packing; then they come to rest once more
+// with the friction of the run, and what stands above the wanted height is cut off. A suspended column (below
+// about 0.55 no pile is at rest): beads at random without contact and without velocity.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@
 namespace demvof {
 
 struct ColumnSettings {
-  Vector lower{}, upper{};      // where the column stands [m]
-  bool periodic_depth = true;   // z joined to itself; otherwise planes at both ends
-  double packing = 0.57;        // wanted; reached exactly only by a suspended column
+  Vector lower{}, upper{};     // where the column stands [m]
+  bool periodic_depth = true;  // z joined to itself; otherwise planes at both ends
+  double packing = 0.57;       // wanted; reached exactly only by a suspended column
   bool suspended = false;
   double diameter = 0.0;
   double density = 0.0;          // of the beads while they settle [kg/m3]
@@ -24,7 +24,7 @@ struct ColumnSettings {
   ContactLaw preparation_law;    // sets the packing
   ContactLaw final_law;          // the run's
   double dt = 1e-5;
-  std::vector<double> floor;     // frozen beads under the column, absolute positions; may be empty
+  std::vector<double> floor;  // frozen beads under the column, absolute positions; may be empty
   unsigned seed = 1;
   std::string scratch_folder;
 };

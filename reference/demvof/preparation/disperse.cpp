@@ -116,8 +116,8 @@ class Cloud {
 
 }  // namespace
 
-std::vector<double> disperse_beads(std::size_t count, const Vector& lower, const Vector& upper, bool periodic_depth,
-                                   double diameter, std::mt19937& random) {
+std::vector<double> disperse_beads(std::size_t count, const Vector& lower, const Vector& upper,
+                                   bool periodic_depth, double diameter, std::mt19937& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::vector<double> x(3 * count);
   for (std::size_t n = 0; n < x.size(); ++n) {

@@ -10,7 +10,7 @@ namespace demvof {
 
 namespace {
 
-constexpr double coverage = 0.70;       // share of the area [-]; gaps are too small for a bead to reach the plane
+constexpr double coverage = 0.70;  // share of the area [-]; gaps are too small for a bead to reach the plane
 constexpr double highest_centre = 0.2;  // in diameters
 
 }  // namespace

@@ -1,13 +1,13 @@
 // The program demvof: run and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <mpi.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <mpi.h>
 
 #include "reference/demvof/program/record_scene.hpp"
 #include "solver/output/output_error.hpp"
@@ -51,7 +51,8 @@ int run(const Arguments& arguments) {
 }
 
 int hash(const Arguments& arguments) {
-  fmt::print("{}\n", granvof::load_scene(arguments.case_file, arguments.overrides).reference_hash);
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  fmt::print("{} {}\n", scene.reference_hash, scene.hash);
   return 0;
 }
 
@@ -66,12 +67,14 @@ int main(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "Prepare, hold, release and run one scene with one seed");
   add_case(*run_command, arguments);
   run_command->add_option("--out", arguments.record.out, "Run directory")->type_name("DIR");
-  run_command->add_option("--scratch", arguments.record.scratch, "Folder for intermediate files")->type_name("DIR");
+  run_command->add_option("--scratch", arguments.record.scratch, "Folder for intermediate files")
+      ->type_name("DIR");
   run_command->add_option("--seed", arguments.record.seed, "Seed of the column and the floor");
   run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
   run_command->add_flag("--progress", arguments.record.progress, "Say how far the run is");
 
-  CLI::App* hash_command = app.add_subcommand("hash", "Print the hash that records carry: of all that the reference depends on");
+  CLI::App* hash_command =
+      app.add_subcommand("hash", "Print two hashes: of what the reference depends on, and of the case");
   add_case(*hash_command, arguments);
 
   try {

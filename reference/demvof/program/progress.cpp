@@ -1,10 +1,10 @@
 #include "reference/demvof/program/progress.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 namespace demvof {
 
@@ -30,8 +30,8 @@ void ProgressLine::update(double now, double start, double end) {
   const double spent = std::chrono::duration<double>(clock - begin_).count();
   const double left = done > 0.0 ? spent * (1.0 - done) / done : 0.0;
   fmt::print(stderr, "{}demvof: {}: t = {:.4f} of {:.4f} s, {:.0f} %, about {:.0f} min {:02.0f} s left{}",
-             terminal_ ? "\r" : "", name_, now, end, 100.0 * done, std::floor(left / 60.0), std::fmod(left, 60.0),
-             terminal_ ? "  " : "\n");
+             terminal_ ? "\r" : "", name_, now, end, 100.0 * done, std::floor(left / 60.0),
+             std::fmod(left, 60.0), terminal_ ? "  " : "\n");
   std::fflush(stderr);
 }
 

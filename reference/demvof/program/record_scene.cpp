@@ -1,13 +1,13 @@
 #include "reference/demvof/program/record_scene.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "reference/demvof/program/progress.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
@@ -21,16 +21,20 @@ namespace {
 
 using granvof::Scene;
 
-double core_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double core_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 std::vector<granvof::Column> monitor_columns() {
-  return {{"fluid_step", "s", "length of the last fluid step"},
-          {"bead_front", "m", "x left of which 99.5 % of the beads have their centres"},
-          {"bead_speed_rms", "m/s", "rms speed of the beads"},
-          {"floor_slip", "-", "mean u_x of the lowest layer of beads over that of the next, beyond the initial bed"},
-          {"excess_base_pressure", "Pa", "floor pressure under the initial bed beyond the liquid's own weight"},
-          {"fluid_speed_max", "m/s", "largest speed of the continuous phase"},
-          {"liquid_volume_change", "-", "relative change of the liquid volume since the start"}};
+  return {
+      {"fluid_step", "s", "length of the last fluid step"},
+      {"bead_front", "m", "x left of which 99.5 % of the beads have their centres"},
+      {"bead_speed_rms", "m/s", "rms speed of the beads"},
+      {"floor_slip", "-",
+       "mean u_x of the lowest layer of beads over that of the next, beyond the initial bed"},
+      {"excess_base_pressure", "Pa", "floor pressure under the initial bed beyond the liquid's own weight"},
+      {"fluid_speed_max", "m/s", "largest speed of the continuous phase"},
+      {"liquid_volume_change", "-", "relative change of the liquid volume since the start"}};
 }
 
 // Moves the gate for both sides.
@@ -84,13 +88,14 @@ class Recording {
   void row(double time) {
     const BeadState& beads = run_.beads().state();
     const double change = run_.fluid().liquid_volume() / liquid_start_ - 1.0;
-    const std::vector<granvof::Value> monitors{last_step_,
-                                               bead_front(beads),
-                                               bead_rms_speed(beads),
-                                               floor_slip(beads, scene_.solid.diameter, scene_.bed->box.upper[0]),
-                                               excess_base_pressure(run_, scene_),
-                                               run_.fluid().largest_speed(),
-                                               change};
+    const std::vector<granvof::Value> monitors{
+        last_step_,
+        bead_front(beads),
+        bead_rms_speed(beads),
+        floor_slip(beads, scene_.solid.diameter, scene_.bed->box.upper[0]),
+        excess_base_pressure(run_, scene_),
+        run_.fluid().largest_speed(),
+        change};
     const granvof::CellFields fields = snapshot(run_, scene_, time);
     progress.liquid_volume_error = std::max(progress.liquid_volume_error, std::abs(change));
     writer_.write_series_row(time, monitors, granvof::extract_scalars(fields, scene_));
@@ -123,8 +128,8 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   const std::string scratch = options.scratch.string();
   ProgressLine line(options.progress, scene.name);
 
-  granvof::RunWriter writer = granvof::RunWriter::fresh(
-      options.out, gridded, {"demvof", options.command, 1, 1}, monitor_columns());
+  granvof::RunWriter writer =
+      granvof::RunWriter::fresh(options.out, gridded, {"demvof", options.command, 1, 1}, monitor_columns());
 
   line.say("preparing the column");
   const std::vector<double> floor = floor_beads(scene, options.seed);
@@ -156,8 +161,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   const auto bring_up_to_date = [&] {
     progress.simulated_time = now;
     progress.core_seconds = core_seconds();
-    progress.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    progress.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   };
   const auto advance_to = [&](double target) {
     const double half = 0.5 * scene.reference->dt;

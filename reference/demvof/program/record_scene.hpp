@@ -9,12 +9,12 @@
 namespace demvof {
 
 struct RecordOptions {
-  std::filesystem::path out;        // run directory
-  std::filesystem::path scratch;    // for OpenFOAM's and LIGGGHTS' files and prepared columns
+  std::filesystem::path out;      // run directory
+  std::filesystem::path scratch;  // for OpenFOAM's and LIGGGHTS' files and prepared columns
   unsigned seed = 1;
-  bool gate_closed = false;         // control run: the gate stays where it is
-  std::string command;              // for the record
-  bool progress = false;            // a line on stderr
+  bool gate_closed = false;  // control run: the gate stays where it is
+  std::string command;       // for the record
+  bool progress = false;     // a line on stderr
 };
 
 // Returns the program's exit code: 0 done, 1 failed (run.json says when and why).

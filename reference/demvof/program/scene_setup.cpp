@@ -1,9 +1,9 @@
 #include "reference/demvof/program/scene_setup.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "reference/demvof/preparation/rough_floor.hpp"
 #include "solver/scene/case_error.hpp"
@@ -22,7 +22,9 @@ constexpr double loosest_pile = 0.55;  // below it a bed cannot be at rest: it i
   throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}", scene.file.string(), why));
 }
 
-bool flat(const Scene& scene) { return scene.dimensions == 2; }
+bool flat(const Scene& scene) {
+  return scene.dimensions == 2;
+}
 
 std::array<int, 3> reference_cells(const Scene& scene) {
   std::array<int, 3> cells{1, 1, 1};
@@ -67,7 +69,8 @@ void check_scene(const Scene& scene) {
   if (scene.bed->slope != 90.0) refuse(scene, fmt::format("bed.slope is {}, allowed: 90", scene.bed->slope));
   const std::size_t sides = flat(scene) ? 4 : 6;
   for (std::size_t s = 0; s < sides; ++s) {
-    if (scene.sides[s].kind == SideKind::periodic) refuse(scene, "a wall is periodic, allowed: no-slip, slip, open");
+    if (scene.sides[s].kind == SideKind::periodic)
+      refuse(scene, "a wall is periodic, allowed: no-slip, slip, open");
     for (const double v : scene.sides[s].velocity) {
       if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
     }
@@ -75,9 +78,11 @@ void check_scene(const Scene& scene) {
   if (scene.gate) {
     const double faces = scene.gate->position / (scene.tank[0] / reference_cells(scene)[0]);
     if (std::abs(faces - std::round(faces)) > 1e-6) {
-      refuse(scene, fmt::format("the gate at {} m does not lie on a face of the fluid cells; choose reference.cell so "
-                                "that it does",
-                                scene.gate->position));
+      refuse(
+          scene,
+          fmt::format("the gate at {} m does not lie on a face of the fluid cells; choose reference.cell so "
+                      "that it does",
+                      scene.gate->position));
     }
   }
   if (scene.reference->young < 5e6) {
@@ -85,7 +90,9 @@ void check_scene(const Scene& scene) {
   }
 }
 
-double depth_of(const Scene& scene) { return flat(scene) ? scene.reference->slice_depth : scene.tank[2]; }
+double depth_of(const Scene& scene) {
+  return flat(scene) ? scene.reference->slice_depth : scene.tank[2];
+}
 
 FluidSettings fluid_settings(const Scene& scene, const std::string& scratch) {
   FluidSettings f;
@@ -164,8 +171,9 @@ std::vector<double> initial_alpha(const Scene& scene, const FluidSettings& fluid
       for (int i = 0; i < nx; ++i) {
         double share = 0.0;
         for (const granvof::Box& box : scene.liquid_boxes) {
-          double inside = overlap(i * fluid.spacing[0], (i + 1) * fluid.spacing[0], box.lower[0], box.upper[0]) *
-                          overlap(j * fluid.spacing[1], (j + 1) * fluid.spacing[1], box.lower[1], box.upper[1]);
+          double inside =
+              overlap(i * fluid.spacing[0], (i + 1) * fluid.spacing[0], box.lower[0], box.upper[0]) *
+              overlap(j * fluid.spacing[1], (j + 1) * fluid.spacing[1], box.lower[1], box.upper[1]);
           if (!flat(scene)) {
             inside *= overlap(k * fluid.spacing[2], (k + 1) * fluid.spacing[2], box.lower[2], box.upper[2]);
           }

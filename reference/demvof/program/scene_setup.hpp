@@ -10,8 +10,8 @@
 
 namespace demvof {
 
-// Throws granvof::CaseError, naming the key, for what demvof does not compute: a scene without a bed, periodic or
-// moving walls, a sloping bed, walls that only beads feel as Coulomb walls.
+// Throws granvof::CaseError, naming the key, for what demvof does not compute: a scene without a bed,
+// periodic or moving walls, a sloping bed, walls that only beads feel as Coulomb walls.
 void check_scene(const granvof::Scene& scene);
 
 double depth_of(const granvof::Scene& scene);  // of the slice, or of the tank in 3D [m]

@@ -61,9 +61,13 @@ granvof::CellFields snapshot(const CoupledRun& run, const granvof::Scene& scene,
   return f;
 }
 
-double bead_front(const BeadState& beads) { return quantile(beads, 0, 0.995); }
+double bead_front(const BeadState& beads) {
+  return quantile(beads, 0, 0.995);
+}
 
-double bed_top(const BeadState& beads, double diameter) { return quantile(beads, 1, 0.995) + 0.5 * diameter; }
+double bed_top(const BeadState& beads, double diameter) {
+  return quantile(beads, 1, 0.995) + 0.5 * diameter;
+}
 
 double bead_rms_speed(const BeadState& beads) {
   double sum = 0.0;
@@ -92,7 +96,8 @@ double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene) 
   const double own = scene.liquid.density * scene.gravity * (level - y);
   const std::vector<double>& pressure = run.fluid().view().pressure;
   const int first = static_cast<int>(std::lround(scene.bed->box.lower[0] / scene.grid.spacing[0]));
-  const int last = std::max(first + 1, static_cast<int>(std::lround(scene.bed->box.upper[0] / scene.grid.spacing[0])));
+  const int last =
+      std::max(first + 1, static_cast<int>(std::lround(scene.bed->box.upper[0] / scene.grid.spacing[0])));
   double sum = 0.0;
   for (int k = 0; k < scene.grid.cells[2]; ++k) {
     for (int i = first; i < last; ++i) {

@@ -9,8 +9,8 @@
 
 namespace demvof {
 
-// f_s, u_s and granular temperature from the beads by the mapping of the coupling; `scene` with demvof's grid,
-// `time` since the release [s]. Theta = <|v - u_s|^2> / 3, about the mean velocity of the cell.
+// f_s, u_s and granular temperature from the beads by the mapping of the coupling; `scene` with demvof's
+// grid, `time` since the release [s]. Theta = <|v - u_s|^2> / 3, about the mean velocity of the cell.
 granvof::CellFields snapshot(const CoupledRun& run, const granvof::Scene& scene, double time);
 
 // x left of which 99.5 % of the beads have their centres [m].
@@ -18,8 +18,9 @@ double bead_front(const BeadState& beads);
 double bead_rms_speed(const BeadState& beads);  // [m/s]
 // Height below which 99.5 % of the beads' upper edges lie [m].
 double bed_top(const BeadState& beads, double diameter);
-// Mean u_x of the lowest layer of beads (centres below 1.5 d) over that of the next (to 2.5 d), among the beads that
-// have left the initial bed, x > from; how far the floor lets the lowest layer slide. None where nothing moves. [-]
+// Mean u_x of the lowest layer of beads (centres below 1.5 d) over that of the next (to 2.5 d), among the
+// beads that have left the initial bed, x > from; how far the floor lets the lowest layer slide. None where
+// nothing moves. [-]
 std::optional<double> floor_slip(const BeadState& beads, double diameter, double from);
 // Pressure along the floor cells under the bed's initial length, in excess of the liquid's own weight
 // rho_l g (level - y) [Pa].
