@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/input/curves.hpp"
+#include "compare/metrics/power_law.hpp"
 #include "compare/output/write.hpp"
 
 namespace granvof::compare {
@@ -83,6 +84,14 @@ Json json_curves(const Run& run) {
        {"front_dense", "y_c", "y_solid_mean", "interface_height", "bed_height_equivalent"})
     add(column, run.curve(column));
   return curves;
+}
+
+// The fit of eq (26) to the front, over all but the first tenth of the run.
+Json json_power_law(const Run& run) {
+  const Window window{0.1 * run.scene.times.end, run.scene.times.end};
+  const auto fit = power_law(run.curve("front_dense"), window);
+  if (!fit) return nullptr;
+  return {{"factor", fit->factor}, {"exponent", fit->exponent}, {"begin", window.begin}};
 }
 
 Json json_scene(const Scene& scene) {
