@@ -128,16 +128,16 @@ std::string results_json(const Evaluation& evaluation, Frequency frequency, cons
 }
 
 std::string curves_json(const Evaluation& evaluation) {
+  const auto json_entry = [](const Run& run) {
+    return Json{{"scene", json_scene(run.scene)},
+                {"directory", run.directory.string()},
+                {"curves", json_curves(run)},
+                {"power_law", json_power_law(run)}};
+  };
   Json json{{"runs", Json::object()}, {"records", Json::object()}};
-  for (const auto& [id, run] : evaluation.usable)
-    json["runs"][id] = {{"scene", json_scene(run.scene)},
-                        {"directory", run.directory.string()},
-                        {"curves", json_curves(run)}};
+  for (const auto& [id, run] : evaluation.usable) json["runs"][id] = json_entry(run);
   for (const auto& [name, variants] : evaluation.records)
-    for (const Run& run : variants)
-      json["records"][name][run.id] = {{"scene", json_scene(run.scene)},
-                                       {"directory", run.directory.string()},
-                                       {"curves", json_curves(run)}};
+    for (const Run& run : variants) json["records"][name][run.id] = json_entry(run);
   return json.dump() + "\n";
 }
 
