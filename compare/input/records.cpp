@@ -40,6 +40,7 @@ std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::s
       variants.push_back(entry.path());
   std::sort(variants.begin(), variants.end());
   std::vector<LoadedRun> loaded;
+  loaded.reserve(variants.size());
   for (const auto& variant : variants) loaded.push_back(load_record(variant, scene));
   return loaded;
 }

@@ -42,6 +42,7 @@ std::string_view unit_of(std::string_view column) {
   for (const ScalarEntry& entry : scalar_table())
     if (entry.name == column) return entry.unit;
   std::vector<std::string_view> known;
+  known.reserve(derived.size() + scalar_table().size());
   for (const Derived& entry : derived) known.push_back(entry.name);
   for (const ScalarEntry& entry : scalar_table()) known.push_back(entry.name);
   throw std::invalid_argument(

@@ -53,21 +53,23 @@ std::string junit_xml(const Evaluation& evaluation) {
     const bool skip =
         !result.judgement.unexpected && (verdict == Verdict::not_run || verdict == Verdict::stale);
     skipped += skip ? 1 : 0;
-    cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\">", escaped(result.check.run),
+    cases += fmt::format(R"(    <testcase classname="{}" name="{}">)", escaped(result.check.run),
                          escaped(result.check.id));
     if (result.judgement.unexpected)
-      cases += fmt::format("<failure message=\"{}\"/>", message);
+      cases += fmt::format(R"(<failure message="{}"/>)", message);
     else if (skip)
-      cases += fmt::format("<skipped message=\"{}\"/>", message);
+      cases += fmt::format(R"(<skipped message="{}"/>)", message);
     else
       cases += fmt::format("<system-out>{}</system-out>", message);
     cases += "</testcase>\n";
   }
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"granvof-compare\" "
-      "tests=\"{}\" "
-      "failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n</testsuites>\n",
-      evaluation.results.size(), evaluation.unexpected(), skipped, cases);
+  return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
+<testsuites>
+  <testsuite name="granvof-compare" tests="{}" failures="{}" skipped="{}">
+{}  </testsuite>
+</testsuites>
+)",
+                     evaluation.results.size(), evaluation.unexpected(), skipped, cases);
 }
 
 }  // namespace granvof::compare
