@@ -120,8 +120,10 @@ std::vector<double> coarsened(const Simulation& run, const Field& f, int cells) 
   const int ratio = run.grid.cells.n[0] / cells;
   std::vector<double> mean(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells), 0.0);
   for (int j = 0; j < run.grid.cells.n[1]; ++j)
-    for (int i = 0; i < run.grid.cells.n[0]; ++i)
-      mean[static_cast<std::size_t>(j / ratio * cells + i / ratio)] += f[run.cell(i, j)] / (ratio * ratio);
+    for (int i = 0; i < run.grid.cells.n[0]; ++i) {
+      const int block = j / ratio * cells + i / ratio;
+      mean[static_cast<std::size_t>(block)] += f[run.cell(i, j)] / (ratio * ratio);
+    }
   return mean;
 }
 
