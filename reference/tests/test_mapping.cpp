@@ -63,7 +63,7 @@ TEST(Mapping, GatherIsExactForALinearField) {
 
 TEST(Mapping, AClosedGateKeepsABeadOnItsSide) {
   Mapping mapping({8, 2, 1}, {0.1, 0.1, 0.3});
-  mapping.set_gate(4, {true, false});
+  mapping.set_gate(4, {1.0, 0.0});
   // Just left of the gate at x = 0.4: in the lower row, closed, and in the upper row, open.
   mapping.update({0.39, 0.05, 0.1, 0.39, 0.15, 0.1});
   std::vector<double> lower(mapping.cell_count(), 0.0), upper(lower);
@@ -73,4 +73,18 @@ TEST(Mapping, AClosedGateKeepsABeadOnItsSide) {
   EXPECT_NEAR(lower[4], 0.0, 1e-12);
   EXPECT_NEAR(upper[8 + 3], 0.6, 1e-12);
   EXPECT_NEAR(upper[8 + 4], 0.4, 1e-12);
+}
+
+// A gate that lifts must not move beads from cell to cell in one jump: half open, half of the share passes.
+TEST(Mapping, AHalfOpenGatePassesHalfOfTheShare) {
+  Mapping mapping({8, 2, 1}, {0.1, 0.1, 0.3});
+  mapping.set_gate(4, {0.5, 0.0});
+  mapping.update({0.39, 0.05, 0.1, 0.41, 0.05, 0.1});
+  std::vector<double> left(mapping.cell_count(), 0.0), right(left);
+  mapping.deposit({1.0, 0.0}, 1, 0, left);
+  mapping.deposit({0.0, 1.0}, 1, 0, right);
+  EXPECT_NEAR(left[4], 0.2, 1e-12);
+  EXPECT_NEAR(left[3], 0.8, 1e-12);
+  EXPECT_NEAR(right[3], 0.2, 1e-12);
+  EXPECT_NEAR(right[4], 0.8, 1e-12);
 }

@@ -186,10 +186,10 @@ void CoupledRun::predict_pressure_force() {
 void CoupledRun::set_gate_edge(int face, double edge) {
   const auto rows = static_cast<std::size_t>(fluid_settings_.cells[1]);
   std::vector<double> open(rows);
-  std::vector<bool> closed(rows);
+  std::vector<double> closed(rows);
   for (std::size_t j = 0; j < rows; ++j) {
     open[j] = std::clamp(edge / fluid_settings_.spacing[1] - static_cast<double>(j), 0.0, 1.0);
-    closed[j] = open[j] < 0.5;
+    closed[j] = 1.0 - open[j];
   }
   fluid_->set_gate(face, open);
   mapping_.set_gate(face, closed);

@@ -29,7 +29,7 @@ Mapping::Mapping(std::array<int, 3> cells, const Vector& spacing)
                   static_cast<std::size_t>(cells[2])),
       corners_(cells[2] > 1 ? 8 : 4) {}
 
-void Mapping::set_gate(int face, std::vector<bool> closed) {
+void Mapping::set_gate(int face, std::vector<double> closed) {
   gate_face_ = face;
   closed_ = std::move(closed);
 }
@@ -50,9 +50,14 @@ void Mapping::update(const std::vector<double>& position) {
       const bool right = (corner & 1) != 0, upper = (corner & 2) != 0, behind = (corner & 4) != 0;
       const int j = upper ? y.second : y.first;
       const int k = corners_ == 4 ? 0 : (behind ? z.second : z.first);
-      int i = right ? x.second : x.first;
-      if (astride && closed_[static_cast<std::size_t>(j)]) i = px < gate_x ? x.first : x.second;
-      double w = (right ? x.weight : 1.0 - x.weight) * (upper ? y.weight : 1.0 - y.weight);
+      // Weight of the right cell; across a gate less of it, or of the left one, by the closed share.
+      double to_right = x.weight;
+      if (astride) {
+        const double closed = closed_[static_cast<std::size_t>(j)];
+        to_right = px < gate_x ? to_right * (1.0 - closed) : 1.0 - (1.0 - to_right) * (1.0 - closed);
+      }
+      const int i = right ? x.second : x.first;
+      double w = (right ? to_right : 1.0 - to_right) * (upper ? y.weight : 1.0 - y.weight);
       if (corners_ == 8) w *= behind ? z.weight : 1.0 - z.weight;
       index_[out] = (k * cells_[1] + j) * cells_[0] + i;
       weight_[out++] = w;

@@ -18,9 +18,10 @@ class Mapping {
   // Cells fill the tank; cells[2] = 1 means that the depth is not resolved.
   Mapping(std::array<int, 3> cells, const Vector& spacing);
 
-  // The gate stands on the faces x = face * spacing[0]; rows j with closed[j] are not mapped across.
+  // The gate stands on the faces x = face * spacing[0] and closes the share closed[j] of the face in row j: that share
+  // of what would be mapped across stays on the bead's side. Shares, because a jump would be a source of volume.
   // An empty vector removes it.
-  void set_gate(int face, std::vector<bool> closed);
+  void set_gate(int face, std::vector<double> closed);
 
   // Weights of all beads at these positions (three numbers a bead).
   void update(const std::vector<double>& position);
@@ -41,7 +42,7 @@ class Mapping {
   std::size_t beads_ = 0;
   int corners_ = 4;
   int gate_face_ = -1;
-  std::vector<bool> closed_;
+  std::vector<double> closed_;
   std::vector<std::int32_t> index_;  // corners_ cells a bead
   std::vector<double> weight_;
 };
