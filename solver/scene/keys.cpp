@@ -187,8 +187,9 @@ std::vector<Key> numerics_keys() {
       key("numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max), "Longest step."),
       key("numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
           "A refused step that would be shorter ends the run; at most dt_max."),
-      choice("numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
-             "Flux of f_s: first order (the paper), or second order, bounded."),
+      choice(
+          "numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
+          "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded."),
       choice("numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
              "Flux of alpha in (24)."),
       key("numerics.volume_tolerance", "-", part, MEMBER(scene.numerics.volume_tolerance),

@@ -114,7 +114,8 @@ struct Model {
   bool operator==(const Model&) const = default;
 };
 
-enum class SolidFlux { upwind, limited };  // first order (the paper), second order bounded
+// Of f_s and of both momenta: first order (the paper), second order bounded.
+enum class SolidFlux { upwind, limited };
 enum class InterfaceScheme { cicsam, upwind };
 
 struct Numerics {
