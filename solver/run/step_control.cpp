@@ -11,7 +11,6 @@ constexpr double after_refused_step = 0.4;
 constexpr double rows_of_the_gate_in_a_step = 0.5;
 constexpr double viscous_number = 0.4;  // nu dt sum(1/h^2) of the explicit viscosity; 0.5 is its limit
 constexpr double first_share_of_dt_max = 0.1;
-constexpr double solid_that_counts = 1e-3;  // solid fraction below which u_s does not bound the step
 
 }  // namespace
 

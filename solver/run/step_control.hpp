@@ -5,6 +5,9 @@
 
 namespace granvof {
 
+// Solid fraction below which u_s neither bounds a step nor has it refused.
+inline constexpr double solid_that_counts = 1e-3;
+
 class StepControl {
  public:
   StepControl(const Grid& grid, const Scene& scene);

@@ -6,13 +6,13 @@
 
 #include "solver/operators/convection.hpp"
 #include "solver/operators/solid_transport.hpp"
+#include "solver/run/step_control.hpp"
 
 namespace granvof {
 namespace {
 
 constexpr double largest_outflow = 0.95;         // share of a cell's content that may leave it in one step
 constexpr double largest_solid_fraction = 0.66;  // beyond it the step's packing is not to be trusted
-constexpr double solid_that_counts = 1e-3;       // solid fraction below which u_s bounds no step
 
 }  // namespace
 

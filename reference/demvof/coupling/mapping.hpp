@@ -18,9 +18,9 @@ class Mapping {
   // Cells fill the tank; cells[2] = 1 means that the depth is not resolved.
   Mapping(std::array<int, 3> cells, const Vector& spacing);
 
-  // The gate stands on the faces x = face * spacing[0] and closes the share closed[j] of the face in row j: that share
-  // of what would be mapped across stays on the bead's side. Shares, because a jump would be a source of volume.
-  // An empty vector removes it.
+  // The gate stands on the faces x = face * spacing[0] and closes the share closed[j] of the face in row j:
+  // that share of what would be mapped across stays on the bead's side. Shares, because a jump would be a
+  // source of volume. An empty vector removes it.
   void set_gate(int face, std::vector<double> closed);
 
   // Weights of all beads at these positions (three numbers a bead).
