@@ -25,7 +25,9 @@ InterfaceTransport::InterfaceTransport(const Grid& grid, const Scene& scene, con
       gain_(grid),
       loss_(grid),
       slope_(grid),
-      correction_(grid) {}
+      correction_(grid) {
+  if (scene.numerics.interface_scheme == InterfaceScheme::plic) plic_.emplace(grid, boundary);
+}
 
 // The outflow Courant number of every cell goes to courant_; only cells at the interface decide the division.
 int InterfaceTransport::substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c) {
@@ -143,6 +145,7 @@ double InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& al
 
 double InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
                                    Field& alpha_new) {
+  if (plic_) return plic_->advance(dt, alpha, f_s, flux_c, alpha_new);
   const int parts = substeps(dt, alpha, f_s, flux_c);
   alpha_new = alpha;
   const double* f = f_s.data();

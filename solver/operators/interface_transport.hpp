@@ -1,4 +1,5 @@
-// Liquid volume balance (24): CICSAM (or upwind) on alpha, times the SAME f_c u_c flux as in continuity.
+// Liquid volume balance (24): a face value of alpha (CICSAM, or upwind) times the SAME f_c u_c flux as in
+// continuity; or the geometric flux of plic_transport.hpp, where the scene says so.
 //
 // A flux-corrected step keeps 0 <= f_l <= f_c without clipping: CICSAM's flux is the upwind flux plus a
 // correction, and the correction is limited where it would leave the bounds. Where the interface moves more
@@ -7,7 +8,9 @@
 // 0.10 at 0.1, 0.06 at 0.05.
 #pragma once
 
-#include "solver/grid/boundary.hpp"
+#include <optional>
+
+#include "solver/operators/plic_transport.hpp"
 
 namespace granvof {
 
@@ -32,6 +35,7 @@ class InterfaceTransport {
   Field liquid_, f_c_, f_c_end_, courant_, gain_, loss_;
   FaceField slope_;       // grad alpha, component by component
   FaceField correction_;  // CICSAM flux minus upwind flux [m/s]
+  std::optional<PlicTransport> plic_;
 };
 
 }  // namespace granvof

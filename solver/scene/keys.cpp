@@ -180,6 +180,7 @@ std::vector<Key> model_keys() {
 std::vector<Key> numerics_keys() {
   const Words<SolidFlux> fluxes{{"upwind", SolidFlux::upwind}, {"limited", SolidFlux::limited}};
   const Words<InterfaceScheme> schemes{{"cicsam", InterfaceScheme::cicsam},
+                                       {"plic", InterfaceScheme::plic},
                                        {"upwind", InterfaceScheme::upwind}};
   return {
       key("numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
@@ -191,7 +192,7 @@ std::vector<Key> numerics_keys() {
           "numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
           "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded."),
       choice("numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
-             "Flux of alpha in (24)."),
+             "Flux of alpha in (24): compressive (the paper), geometric with split sweeps, or first order."),
       key("numerics.volume_tolerance", "-", part, MEMBER(scene.numerics.volume_tolerance),
           "Largest volume error of a cell in one step, as a share of the cell."),
       key("numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),

@@ -116,7 +116,7 @@ struct Model {
 
 // Of f_s and of both momenta: first order (the paper), second order bounded.
 enum class SolidFlux { upwind, limited };
-enum class InterfaceScheme { cicsam, upwind };
+enum class InterfaceScheme { cicsam, plic, upwind };
 
 struct Numerics {
   double cfl = 0.4;      // convective Courant number of the step, in (0, 0.9]

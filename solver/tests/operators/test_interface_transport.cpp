@@ -81,8 +81,26 @@ TEST(InterfaceTransport, DiscCarried) {
   EXPECT_GT(smeared.shape_error, 3.0 * 0.285);
 }
 
+// The same disc by planes in the cells; shape errors measured: along x 0.0052, 0.0029; along xy 0.0253,
+// 0.0211, at 0.2 and at 0.4 alike: a tenth of CICSAM's. The bounds leave a tenth.
+TEST(InterfaceTransport, DiscCarriedByPlanes) {
+  struct Case {
+    int n;
+    double courant, up, bound;
+  };
+  for (const Case& k : {Case{32, 0.2, 0.0, 0.0057}, Case{64, 0.2, 0.0, 0.0032}, Case{32, 0.2, 1.0, 0.028},
+                        Case{64, 0.2, 1.0, 0.0235}, Case{32, 0.4, 1.0, 0.028}, Case{64, 0.4, 1.0, 0.0235}}) {
+    const Carried c = disc(InterfaceScheme::plic, k.n, k.courant, k.up);
+    SCOPED_TRACE(std::to_string(k.n) + ", Courant number " + std::to_string(k.courant));
+    EXPECT_LT(c.shape_error, k.bound);
+    EXPECT_LT(c.volume_error, 1e-12);
+    EXPECT_GE(c.least, 0.0);
+    EXPECT_LE(c.most, 1.0);
+  }
+}
+
 TEST(InterfaceTransport, BoundedAndConservativeAmongGrains) {
-  for (InterfaceScheme scheme : {InterfaceScheme::cicsam, InterfaceScheme::upwind}) {
+  for (InterfaceScheme scheme : {InterfaceScheme::cicsam, InterfaceScheme::plic, InterfaceScheme::upwind}) {
     const Tank s(interface_scene(32, scheme, true));
     const double k = 2.0 * std::numbers::pi;
     const Field f_s = s.cells(
@@ -103,19 +121,25 @@ TEST(InterfaceTransport, BoundedAndConservativeAmongGrains) {
 }
 
 TEST(InterfaceTransport, UniformShareStaysUniformWhileGrainsMove) {
-  for (double share : {0.0, 0.37, 1.0}) {
-    Tank s(interface_scene(16, InterfaceScheme::cicsam, false));
-    const Field f_s = s.random_cells(0.1, 0.5), alpha = s.random_cells(share, share);
-    const FaceField flux = s.random_faces(-0.5, 0.5);  // with divergence: f_c changes
-    Field next(s.grid);
-    InterfaceTransport(s.grid, s.scene, s.boundary).advance(0.01, alpha, f_s, flux, next);
-    s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(next[c], share, 1e-13); });
+  for (InterfaceScheme scheme : {InterfaceScheme::cicsam, InterfaceScheme::plic}) {
+    for (double share : {0.0, 0.37, 1.0}) {
+      Tank s(interface_scene(16, scheme, false));
+      const Field f_s = s.random_cells(0.1, 0.5), alpha = s.random_cells(share, share);
+      const FaceField flux = s.random_faces(-0.5, 0.5);  // with divergence: f_c changes
+      Field next(s.grid);
+      InterfaceTransport(s.grid, s.scene, s.boundary).advance(0.01, alpha, f_s, flux, next);
+      s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(next[c], share, 1e-13); });
+    }
   }
 }
 
 TEST(InterfaceTransport, BoundedWhileGrainsMove) {
-  for (int dim : {2, 3}) {
-    Tank s(test::unit_scene(dim, 10));
+  for (const auto& [dim, scheme] :
+       {std::pair{2, InterfaceScheme::cicsam}, std::pair{3, InterfaceScheme::cicsam},
+        std::pair{2, InterfaceScheme::plic}, std::pair{3, InterfaceScheme::plic}}) {
+    Scene scene = test::unit_scene(dim, 10);
+    scene.numerics.interface_scheme = scheme;
+    Tank s(scene);
     Field alpha = s.random_cells(-1.0, 2.0);
     s.each_cell([&](int, int, int, std::ptrdiff_t c) { alpha[c] = std::clamp(alpha[c], 0.0, 1.0); });
     s.boundary.fill_scalar(alpha, 0.0);
@@ -136,23 +160,26 @@ TEST(InterfaceTransport, BoundedWhileGrainsMove) {
 }
 
 TEST(InterfaceTransport, ReportsWhatLeavesThroughTheOpenTop) {
-  Scene scene = interface_scene(8, InterfaceScheme::cicsam, false);
-  scene.sides[top].kind = SideKind::open;
-  scene.sides[bottom].kind = SideKind::wall;
-  Tank s(scene);
-  Field alpha = s.random_cells(1.0, 1.0);
-  s.boundary.fill_scalar(alpha, 0.0);
-  FaceField flux(s.grid);
-  // up in the left half and out, in from the top in the right half, from side to side in the lowest row
-  s.each(s.grid.fluid_faces(1), [&](int i, int, int, std::ptrdiff_t c) { flux[1][c] = i < 4 ? 0.3 : -0.3; });
-  for (int i = 1; i < 8; ++i) flux[0][s.grid.cells.index(i, 0, 0)] = -0.3 * (i < 4 ? i : 8 - i);
-  s.each_cell([&](int, int, int, std::ptrdiff_t c) { ASSERT_NEAR(s.divergence(flux, c), 0.0, 1e-12); });
-  const double dt = 0.05;
-  Field next(s.grid);
-  const double left =
-      InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, alpha, Field(s.grid), flux, next);
-  EXPECT_NEAR(left, 0.3 * 0.5 * dt, 1e-14);  // speed times half the tank's top, depth 1 m
-  EXPECT_NEAR((s.total(alpha) - s.total(next)) * s.grid.cell_volume, left, 1e-14);
+  for (InterfaceScheme scheme : {InterfaceScheme::cicsam, InterfaceScheme::plic}) {
+    Scene scene = interface_scene(8, scheme, false);
+    scene.sides[top].kind = SideKind::open;
+    scene.sides[bottom].kind = SideKind::wall;
+    Tank s(scene);
+    Field alpha = s.random_cells(1.0, 1.0);
+    s.boundary.fill_scalar(alpha, 0.0);
+    FaceField flux(s.grid);
+    // up in the left half and out, in from the top in the right half, from side to side in the lowest row
+    s.each(s.grid.fluid_faces(1),
+           [&](int i, int, int, std::ptrdiff_t c) { flux[1][c] = i < 4 ? 0.3 : -0.3; });
+    for (int i = 1; i < 8; ++i) flux[0][s.grid.cells.index(i, 0, 0)] = -0.3 * (i < 4 ? i : 8 - i);
+    s.each_cell([&](int, int, int, std::ptrdiff_t c) { ASSERT_NEAR(s.divergence(flux, c), 0.0, 1e-12); });
+    const double dt = 0.05;
+    Field next(s.grid);
+    const double left =
+        InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, alpha, Field(s.grid), flux, next);
+    EXPECT_NEAR(left, 0.3 * 0.5 * dt, 1e-14);  // speed times half the tank's top, depth 1 m
+    EXPECT_NEAR((s.total(alpha) - s.total(next)) * s.grid.cell_volume, left, 1e-14);
+  }
 }
 
 }  // namespace

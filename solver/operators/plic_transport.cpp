@@ -1,0 +1,114 @@
+#include "solver/operators/plic_transport.hpp"
+
+#include "solver/operators/flux_balance.hpp"
+
+namespace granvof {
+namespace {
+
+constexpr double largest_courant =
+    0.5;                        // outflow per substep: what a half sweep leaves still covers the next
+constexpr double pure = 1e-12;  // alpha closer than this to 0 or 1 has no interface in its cell
+
+struct Cut {
+  PlaneInCell plane;
+  std::array<bool, 3> mirrored{};
+};
+
+// Youngs' normal, out of the liquid, in units of the cell; all zero where alpha is uniform around the cell.
+std::array<double, 3> liquid_normal(const Grid& grid, const double* a, std::ptrdiff_t c) {
+  std::array<double, 3> n{};
+  const std::ptrdiff_t x = grid.stride(0), y = grid.stride(1), z = grid.dim == 3 ? grid.stride(2) : 0;
+  const int deep = grid.dim == 3 ? 1 : 0;
+  for (int k = -deep; k <= deep; ++k)
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) {
+        const double value = a[c + i * x + j * y + k * z];
+        const double wx = 2.0 - std::abs(i), wy = 2.0 - std::abs(j), wz = 2.0 - std::abs(k);
+        n[0] -= i * wy * wz * value;
+        n[1] -= j * wx * wz * value;
+        n[2] -= k * wx * wy * value;
+      }
+  return n;
+}
+
+// The plane of a cell, false where its neighbours give it no direction.
+bool cut_of(const Grid& grid, const double* a, std::ptrdiff_t c, Cut& cut) {
+  std::array<double, 3> n = liquid_normal(grid, a, c);
+  const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
+  if (!(sum > pure)) return false;
+  for (int i = 0; i < 3; ++i) {
+    cut.mirrored[i] = n[i] < 0.0;
+    cut.plane.normal[i] = std::fabs(n[i]) / sum;
+  }
+  cut.plane.distance = distance_of_volume(cut.plane.normal, a[c]);
+  return true;
+}
+
+}  // namespace
+
+PlicTransport::PlicTransport(const Grid& grid, const Boundary& boundary)
+    : grid_(grid), boundary_(boundary), f_c_(grid), courant_(grid), flux_(grid) {}
+
+int PlicTransport::substeps(double dt, const Field& f_s, const FaceField& flux_c) {
+  outflow_rate(grid_, flux_c, courant_);
+  const double *rate = courant_.data(), *f = f_s.data();
+  const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0,
+                                  [=](std::ptrdiff_t c) { return rate[c] * dt / (1.0 - f[c]); });
+  return std::max(1, static_cast<int>(std::ceil(largest / largest_courant)));
+}
+
+// One direction: alpha and f_c_ are both brought over the sweep. Returns the liquid that left through the
+// top.
+double PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alpha) {
+  boundary_.fill_scalar(alpha, 0.0);
+  boundary_.fill_scalar(f_c_);
+  const std::ptrdiff_t s = grid_.stride(d);
+  const double dt_h = dt / grid_.h[d];
+  double *a = alpha.data(), *fc = f_c_.data(), *liquid = flux_.data();
+  const double* q = flux_c[d].data();
+  flux_.fill(0.0);
+  for_each(grid_.cells, grid_.fluid_faces(d), [=, this](std::ptrdiff_t c) {
+    const bool forward = q[c] > 0.0;
+    const std::ptrdiff_t donor = forward ? c - s : c;
+    const double width = std::fabs(q[c]) * dt_h / fc[donor];  // the part of the donor that leaves
+    Cut cut;
+    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width <= pure || !cut_of(grid_, a, donor, cut)) {
+      liquid[c] = a[donor] * q[c];
+      return;
+    }
+    const bool upper_end = forward != cut.mirrored[d];
+    const double lower = upper_end ? 1.0 - width : 0.0;
+    const double share = volume_in_slab(cut.plane, d, lower, lower + width) / width;
+    liquid[c] = share * q[c];
+  });
+  boundary_.exchange(flux_);
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+    const double held = a[c] * fc[c] - dt_h * (liquid[c + s] - liquid[c]);
+    fc[c] -= dt_h * (q[c + s] - q[c]);
+    a[c] = std::clamp(held / fc[c], 0.0, 1.0);  // within bounds already but for rounding
+  });
+  if (d != 1 || !grid_.open_top) return 0.0;
+  Range top = grid_.all_cells();
+  top.lower[1] = grid_.cells.n[1] - 1;
+  return dt_h * grid_.cell_volume *
+         sum_over(grid_.cells, top, [=](std::ptrdiff_t c) { return liquid[c + s]; });
+}
+
+double PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
+                              Field& alpha_new) {
+  const int parts = substeps(dt, f_s, flux_c);
+  const double part = dt / parts;
+  alpha_new = alpha;
+  const double* f = f_s.data();
+  double* fc = f_c_.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
+  double left = 0.0;
+  for (int n = 0; n < parts; ++n) {
+    for (int d = 0; d < grid_.dim - 1; ++d) left += sweep(d, 0.5 * part, flux_c, alpha_new);
+    left += sweep(grid_.dim - 1, part, flux_c, alpha_new);
+    for (int d = grid_.dim - 2; d >= 0; --d) left += sweep(d, 0.5 * part, flux_c, alpha_new);
+  }
+  return left;
+}
+
+}  // namespace granvof

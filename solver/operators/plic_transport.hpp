@@ -1,0 +1,35 @@
+// Liquid volume balance (24) with a geometric flux: a plane in every cell of the interface (PLIC), one
+// direction after the other.
+//
+// The normal is Youngs' (differences over 3 x 3 (x 3) cells), the flux is the liquid in the part of the donor
+// that the continuous phase leaves through the face: what a cell loses through two faces comes from two
+// separate parts of it, so that 0 <= f_l <= f_c holds without a limiter. f_c goes through the same sweeps,
+// which keeps a uniform alpha uniform. Sweeps are x y x (x y z y x in 3D), the outer ones over half the step:
+// no direction is preferred from step to step, and a run needs no memory of the last order.
+// Sources: Youngs 1982 (in Numerical Methods for Fluid Dynamics, Academic Press); Weymouth & Yue 2010, J.
+// Comput. Phys. 229, 2853, for what split sweeps owe to conservation; Strang 1968, SIAM J. Numer. Anal. 5.
+#pragma once
+
+#include "solver/grid/boundary.hpp"
+#include "solver/operators/plane_in_cell.hpp"
+
+namespace granvof {
+
+class PlicTransport {
+ public:
+  PlicTransport(const Grid& grid, const Boundary& boundary);
+
+  // In: alpha and f_s of the old level (ghosts filled), flux_c [m/s]. Out: alpha of the new level.
+  // Returns the liquid volume [m3] that left through the open top.
+  double advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new);
+
+ private:
+  int substeps(double dt, const Field& f_s, const FaceField& flux_c);
+  double sweep(int d, double dt, const FaceField& flux_c, Field& alpha);
+
+  const Grid& grid_;
+  const Boundary& boundary_;
+  Field f_c_, courant_, flux_;
+};
+
+}  // namespace granvof
