@@ -38,7 +38,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       flux_s_(grid),
       flux_c_(grid) {}
 
-StepReport TimeStep::advance(const State& now, double dt, State& next) {
+StepReport TimeStep::advance(const State& now, double dt, State& next, const BodyAcceleration* extra) {
   StepReport report;
   next = now;
   next.time = now.time + dt;
@@ -50,6 +50,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next) {
     drag_.update(now.u_s, now.u_c, now.alpha, inertia_);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
+  if (extra != nullptr) add_to_predictor(*extra, dt);
   cost_.time("friction", [&] { apply_friction(now, dt, next, report); });
   cost_.time("pressure", [&] {
     report.pressure = pressure_.solve(dt, now.f_s, {now.theta, rheology_.restitution}, inertia_, drag_.beta(),
@@ -108,6 +109,19 @@ void TimeStep::predict(const State& now, double dt) {
     });
     for_each(grid_.cells, solid,
              [=](std::ptrdiff_t c) { s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity)); });
+    boundary_.exchange(predicted_c_[d]);
+    boundary_.exchange(predicted_s_[d]);
+  }
+}
+
+void TimeStep::add_to_predictor(const BodyAcceleration& extra, double dt) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *open = aperture_[d].data(), *fluid = extra.fluid[d].data(), *solid = extra.solid[d].data();
+    double *c_star = predicted_c_[d].data(), *s_star = predicted_s_[d].data();
+    for_each(grid_.cells, grid_.fluid_faces(d),
+             [=](std::ptrdiff_t c) { c_star[c] += dt * open[c] * fluid[c]; });
+    for_each(grid_.cells, grid_.inner_faces(d),
+             [=](std::ptrdiff_t c) { s_star[c] += dt * open[c] * solid[c]; });
     boundary_.exchange(predicted_c_[d]);
     boundary_.exchange(predicted_s_[d]);
   }

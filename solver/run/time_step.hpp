@@ -25,18 +25,25 @@ struct StepReport {
   double kinematic_viscosity = 0.0;  // largest of the fluid, LES included [m2/s]
 };
 
+// Accelerations beside gravity, on the faces of each direction [m/s2]: the sources of a manufactured
+// solution.
+struct BodyAcceleration {
+  FaceField solid, fluid;
+};
+
 class TimeStep {
  public:
   TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary, const Communicator& communicator);
 
   // Tries one step from `now` (ghosts filled) to `next`. `now` is never touched; `next` is meaningful, with
   // ghosts filled, only if the report says accepted.
-  StepReport advance(const State& now, double dt, State& next);
+  StepReport advance(const State& now, double dt, State& next, const BodyAcceleration* extra = nullptr);
 
   const Stopwatch& cost() const { return cost_; }
 
  private:
   void predict(const State& now, double dt);
+  void add_to_predictor(const BodyAcceleration& extra, double dt);
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -38,7 +39,7 @@ class Simulation {
   void advance(double longest) {
     double dt = std::min(control_.next(now, viscosity_), longest);
     for (;;) {
-      last = step_.advance(now, dt, next_);
+      last = step_.advance(now, dt, next_, extra ? &*extra : nullptr);
       if (last.accepted) break;
       ++refused;
       dt = control_.after_refusal(dt);
@@ -106,6 +107,7 @@ class Simulation {
   State now;
   StepReport last;
   int steps = 0, refused = 0;
+  std::optional<BodyAcceleration> extra;  // sources of a manufactured solution, where set
 
  private:
   State next_;
