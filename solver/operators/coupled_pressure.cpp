@@ -185,11 +185,13 @@ void CoupledPressure::linearise(const SolidPressureState& law) {
   double *pp = point_p_.data(), *slope = slope_.data();
   const double rho_s = scene_.solid.density;
   const bool dilatancy = scene_.model.dilatancy_pressure;
+  const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
   const Contact& contact = scene_.contact;
   for_each(grid_.cells, [=, &contact](std::ptrdiff_t c) {
     const auto p = closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy);
     pp[c] = p.value;
-    slope[c] = p.slope;
+    slope[c] =
+        implicit ? p.slope : closures::least_solid_pressure_slope;  // next to none: P_s stays at the point
   });
 }
 
@@ -252,6 +254,7 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
                                       const Aperture& aperture, FaceField& u_s, FaceField& u_c, Field& p_c,
                                       Field& p_s, FaceField& flux_s, FaceField& flux_c) {
   const Numerics& numerics = scene_.numerics;
+  const bool implicit = numerics.contact_pressure == ContactPressure::implicit;
   PressureReport report;
   us_ = u_s;
   uc_ = u_c;
@@ -268,7 +271,7 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
     report.newton = iteration + 1;
     report.linear += r.iterations;
     correct(dt, f_s, u_s, u_c, flux_s, flux_c);
-    report.mismatch = move_points(dt, law, p_s);
+    report.mismatch = implicit ? move_points(dt, law, p_s) : 0.0;
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
     if (report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance) {

@@ -3,7 +3,9 @@
 // Finds P_c and P_s so that the corrected velocities satisfy continuity (4), div(f_s u_s + f_c u_c) = 0, and
 // the solid volume balance (1) closes with the law P_s = P_s(f_s) at the new level. Drag acts inside the
 // correction: a face's 2x2 system couples both phases' response to both gradients. Elastic waves of the
-// contact pressure (13) and drag therefore do not bound the time step.
+// contact pressure (13) and drag therefore do not bound the time step. With explicit contact pressure P_s is
+// that of the old f_s and only continuity is solved for: the comparison that shows what the coupling is
+// worth.
 #pragma once
 
 #include <string>

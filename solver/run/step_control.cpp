@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/closures/solid_pressure.hpp"
+
 namespace granvof {
 namespace {
 
@@ -11,6 +13,21 @@ constexpr double after_refused_step = 0.4;
 constexpr double rows_of_the_gate_in_a_step = 0.5;
 constexpr double viscous_number = 0.4;  // nu dt sum(1/h^2) of the explicit viscosity; 0.5 is its limit
 constexpr double first_share_of_dt_max = 0.1;
+constexpr double elastic_courant =
+    0.5;  // of explicit contact pressure; leapfrog's limit is 1 / sqrt(dimensions)
+
+// Fastest elastic wave of the solid, sqrt(dP_s/df_s / rho_s) [m/s]: the fluid between the grains only slows
+// it.
+double elastic_speed(const Grid& grid, const Scene& scene, const State& s) {
+  const double *f = s.f_s.data(), *theta = s.theta.data();
+  const double e = scene.solid.restitution, rho_s = scene.solid.density;
+  const bool dilatancy = scene.model.dilatancy_pressure;
+  const Contact& contact = scene.contact;
+  const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
+    return closures::solid_pressure(f[c], theta[c], e, rho_s, contact, dilatancy).slope;
+  });
+  return std::sqrt(stiffest / rho_s);
+}
 
 }  // namespace
 
@@ -35,6 +52,9 @@ double StepControl::next(const State& s, double kinematic_viscosity) const {
   for (int d = 0; d < grid_.dim; ++d)
     if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
   if (kinematic_viscosity > 0.0) dt = std::min(dt, viscous_number / (kinematic_viscosity * inverse_squares));
+  if (scene_.numerics.contact_pressure == ContactPressure::explicit_)
+    dt = std::min(dt, elastic_courant * *std::min_element(grid_.h.begin(), grid_.h.begin() + grid_.dim) /
+                          elastic_speed(grid_, scene_, s));
   if (scene_.gate) {
     const double risen = scene_.tank[1] / scene_.gate->speed;
     if (s.time < 0.0) {

@@ -182,6 +182,8 @@ std::vector<Key> numerics_keys() {
   const Words<InterfaceScheme> schemes{{"cicsam", InterfaceScheme::cicsam},
                                        {"plic", InterfaceScheme::plic},
                                        {"upwind", InterfaceScheme::upwind}};
+  const Words<ContactPressure> contact_pressures{{"implicit", ContactPressure::implicit},
+                                                 {"explicit", ContactPressure::explicit_}};
   return {
       key("numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
           MEMBER(scene.numerics.cfl), "Convective Courant number of a step."),
@@ -193,6 +195,10 @@ std::vector<Key> numerics_keys() {
           "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded."),
       choice("numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
              "Flux of alpha in (24): compressive (the paper), geometric with split sweeps, or first order."),
+      choice(
+          "numerics.contact_pressure", contact_pressures, MEMBER(scene.numerics.contact_pressure),
+          "P_s of the new solid fraction; or of the old one, with steps below the elastic waves' limit: for "
+          "comparison."),
       key("numerics.volume_tolerance", "-", part, MEMBER(scene.numerics.volume_tolerance),
           "Largest volume error of a cell in one step, as a share of the cell."),
       key("numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),

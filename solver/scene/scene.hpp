@@ -116,6 +116,8 @@ struct Model {
 
 // Of f_s and of both momenta: first order (the paper), second order bounded.
 enum class SolidFlux { upwind, limited };
+// P_s of the step: at the new solid fraction, or at the old one (which ties the step to the elastic waves).
+enum class ContactPressure { implicit, explicit_ };
 enum class InterfaceScheme { cicsam, plic, upwind };
 
 struct Numerics {
@@ -124,6 +126,7 @@ struct Numerics {
   double dt_min = 1e-9;  // a refused step that would be shorter ends the run [s]
   SolidFlux solid_flux = SolidFlux::upwind;
   InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
+  ContactPressure contact_pressure = ContactPressure::implicit;
   double volume_tolerance = 1e-6;  // largest volume error of a cell in one step, as a fraction of the cell
   double linear_tolerance = 1e-3;  // residual reduction of one linear solve inside Newton
   int newton_max = 30;
