@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 #include "solver/linear/flush_denormals.hpp"
@@ -13,28 +12,6 @@ namespace granvof::linear {
 namespace {
 
 constexpr int block = 1024;  // fine values of a row summed or expanded at a time; a multiple of 2 * lanes
-
-// Faces and masses of the caller's arrays.
-class GivenCoefficients final : public Coefficients {
- public:
-  GivenCoefficients(const Layout& l, const Faces& faces, const double* mass)
-      : layout_(l), faces_(faces), mass_(mass) {}
-  bool coupled(int d) const override { return faces_.lower[d] != nullptr; }
-  void faces(int d, int j, int k, float* out) const override { copy(faces_.lower[d], j, k, out); }
-  void masses(int j, int k, float* out) const override { copy(mass_, j, k, out); }
-
- private:
-  void copy(const double* values, int j, int k, float* out) const {
-    const double* row = values + layout_.index(0, j, k);
-    const int n = layout_.n[0];
-#pragma omp simd
-    for (int i = 0; i < n; ++i) out[i] = static_cast<float>(row[i]);
-  }
-
-  const Layout& layout_;
-  const Faces& faces_;
-  const double* mass_;
-};
 
 rows::Stencil stencil(const std::array<Buffer<float>, 3>& face, const Layout& l) {
   return {face[0].data(), face[1].data(), face[2].data(), l.stride[1], l.stride[2]};
@@ -58,188 +35,8 @@ Multigrid::Multigrid(const Layout& layout, const Communicator& communicator,
   build({layout.n[0] > 1, layout.n[1] > 1, layout.n[2] > 1});
 }
 
-void Multigrid::build(const std::array<bool, 3>& coupled) {
-  levels_.clear();
-  std::array<int, 3> n = user_.n;
-  std::array<double, 3> spacing = spacing_;
-  for (;;) {
-    Level l;
-    double shortest = 0.0;
-    bool last = true;
-    for (int d = 0; d < 3; ++d) {
-      l.coupled[d] = coupled[d] && n[d] > 1;
-      if (l.coupled[d] && (last || spacing[d] < shortest)) shortest = spacing[d];
-      last = last && !l.coupled[d];
-    }
-    // Ghosts do not depend on what is coupled, so that the layout never changes.
-    l.layout = padded_layout(n, user_.periodic);
-    const std::size_t size = l.layout.size;
-    for (int d = 0; d < 3; ++d)
-      if (l.coupled[d]) l.face[d] = Buffer<float>(size);
-    for (auto* b : {&l.mass, &l.scale, &l.root, &l.weight, &l.rhs}) *b = Buffer<float>(size);
-    for (auto& x : l.x) x = Buffer<float>(size);
-    for (int d = 0; d < 3; ++d) {
-      l.coarsened[d] = l.coupled[d] && spacing[d] < 1.99 * shortest;
-      if (!l.coarsened[d]) continue;
-      n[d] = (n[d] + 1) / 2;
-      spacing[d] *= 2.0;
-    }
-    levels_.push_back(std::move(l));
-    if (last) return;
-  }
-}
-
 void Multigrid::exchange(const Layout& l, float* values) const {
   if (any_periodic(l)) communicator_.exchange(l, values);
-}
-
-void Multigrid::set(const Faces& faces, const double* mass) {
-  set(GivenCoefficients(user_, faces, mass));
-}
-
-void Multigrid::set(const Coefficients& coefficients) {
-  std::array<bool, 3> coupled{};
-  for (int d = 0; d < 3; ++d) coupled[d] = coefficients.coupled(d) && user_.n[d] > 1;
-  if (coupled != levels_.front().coupled) build(coupled);
-
-  Level& finest = levels_.front();
-  for_rows(finest.layout, [&](int j, int k) {
-    const std::ptrdiff_t row = finest.layout.index(0, j, k);
-    coefficients.masses(j, k, finest.mass.data() + row);
-    const std::array<int, 3> position{0, j, k};
-    for (int d = 0; d < 3; ++d) {
-      if (!finest.coupled[d]) continue;
-      float* face = finest.face[d].data() + row;
-      coefficients.faces(d, j, k, face);
-      if (!finest.layout.periodic[d] && position[d] == 0) std::fill_n(face, d == 0 ? 1 : user_.n[0], 0.0F);
-    }
-  });
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    Level& l = levels_[i];
-    for (int d = 0; d < 3; ++d)
-      if (l.coupled[d]) exchange(l.layout, l.face[d].data());
-    if (i + 1 < levels_.size()) coarsen(l, levels_[i + 1]);
-    scale_level(l);
-    if (i > 0) weigh(levels_[i - 1], l);
-  }
-}
-
-// Sums of the fine masses, and of the fine faces over the growth of the distance between cells.
-void Multigrid::coarsen(const Level& fine, Level& coarse) const {
-  const Layout& lf = fine.layout;
-  const Layout& lc = coarse.layout;
-  const std::array<int, 3> ratio{fine.coarsened[0] ? 2 : 1, fine.coarsened[1] ? 2 : 1,
-                                 fine.coarsened[2] ? 2 : 1};
-  // Distance of coarse cell i from its lower neighbour, in fine cells (an odd direction ends in a single
-  // cell).
-  const auto distance = [&](int d, int i) {
-    if (ratio[d] == 1) return 1.0F;
-    const int lower = i == 0 ? lc.n[d] - 1 : i - 1;
-    const auto width = [&](int c) { return std::min(2, lf.n[d] - 2 * c); };
-    return 0.5F * static_cast<float>(width(i) + width(lower));
-  };
-  for_rows(lc, [&](int j, int k) {
-    const std::ptrdiff_t out = lc.index(0, j, k);
-    const int rows_y = std::min(ratio[1], lf.n[1] - ratio[1] * j),
-              rows_z = std::min(ratio[2], lf.n[2] - ratio[2] * k);
-    // out[i] = factor * (sum over ny x nz fine rows of the pair (or, `single`, of the first of the pair))
-    const auto gather = [&](const float* from, float* to, int ny, int nz, bool single, float factor) {
-      const int n = lc.n[0];
-      for (int b = 0; b < nz; ++b)
-        for (int a = 0; a < ny; ++a) {
-          const float* row = from + lf.index(0, ratio[1] * j + a, ratio[2] * k + b);
-          if (a == 0 && b == 0) std::fill_n(to, n, 0.0F);
-          if (ratio[0] == 1 || single) {
-            const int step = ratio[0];
-#pragma omp simd
-            for (int i = 0; i < n; ++i) to[i] += factor * row[step * i];
-          } else {
-            const int whole = lf.n[0] / 2;
-#pragma omp simd
-            for (int i = 0; i < whole; ++i) to[i] += factor * (row[2 * i] + row[2 * i + 1]);
-            if (whole < n) to[whole] += factor * row[2 * whole];
-          }
-        }
-    };
-    gather(fine.mass.data(), coarse.mass.data() + out, rows_y, rows_z, false, 1.0F);
-    if (coarse.coupled[0]) {
-      float* face = coarse.face[0].data() + out;
-      const auto regular = static_cast<float>(ratio[0]);
-      gather(fine.face[0].data(), face, rows_y, rows_z, true, 1.0F / regular);
-      for (const int end : {0, lc.n[0] - 1}) face[end] *= regular / distance(0, end);
-    }
-    if (coarse.coupled[1])
-      gather(fine.face[1].data(), coarse.face[1].data() + out, 1, rows_z, false, 1.0F / distance(1, j));
-    if (coarse.coupled[2])
-      gather(fine.face[2].data(), coarse.face[2].data() + out, rows_y, 1, false, 1.0F / distance(2, k));
-  });
-}
-
-// Diagonal, its roots, and the faces divided by the roots of both their cells.
-void Multigrid::scale_level(Level& l) {
-  const Layout& lay = l.layout;
-  const int n = lay.n[0];
-  const std::ptrdiff_t sy = lay.stride[1], sz = lay.stride[2];
-  const auto [cx, cy, cz] = l.coupled;
-  for_rows(lay, [&, cx = cx, cy = cy, cz = cz](int j, int k) {
-    const std::ptrdiff_t row = lay.index(0, j, k);
-    float* root = l.root.data() + row;
-    float* scale = l.scale.data() + row;
-    const float* mass = l.mass.data() + row;
-    for (int i = 0; i < n; ++i) root[i] = mass[i];
-    const auto add = [&](int d, std::ptrdiff_t stride) {
-      const float* face = l.face[d].data() + row;
-#pragma omp simd
-      for (int i = 0; i < n; ++i) root[i] += face[i] + face[i + stride];
-    };
-    if (cx) add(0, 1);
-    if (cy) add(1, sy);
-    if (cz) add(2, sz);
-#pragma omp simd
-    for (int i = 0; i < n; ++i) {
-      const float diagonal = root[i];
-      root[i] = std::sqrt(diagonal);
-      scale[i] = diagonal > 0.0F ? 1.0F / root[i] : 0.0F;
-    }
-  });
-  exchange(lay, l.scale.data());
-  for_rows(lay, [&](int j, int k) {
-    const std::ptrdiff_t row = lay.index(0, j, k);
-    const float* scale = l.scale.data() + row;
-    for (int d = 0; d < 3; ++d) {
-      if (!l.coupled[d]) continue;
-      float* face = l.face[d].data() + row;
-      const std::ptrdiff_t stride = lay.stride[d];
-#pragma omp simd
-      for (int i = 0; i < n; ++i) face[i] *= scale[i] * scale[i - stride];
-    }
-  });
-  for (int d = 0; d < 3; ++d)
-    if (l.coupled[d]) exchange(lay, l.face[d].data());
-}
-
-void Multigrid::weigh(Level& fine, const Level& coarse) const {
-  const Layout& lf = fine.layout;
-  for_rows(lf, [&](int j, int k) {
-    const std::ptrdiff_t row = lf.index(0, j, k);
-    const float* root = fine.root.data() + row;
-    float* weight = fine.weight.data() + row;
-    const float* scale = coarse.scale.data() +
-                         coarse.layout.index(0, fine.coarsened[1] ? j / 2 : j, fine.coarsened[2] ? k / 2 : k);
-    const int n = lf.n[0];
-    if (!fine.coarsened[0]) {
-#pragma omp simd
-      for (int i = 0; i < n; ++i) weight[i] = root[i] * scale[i];
-    } else {
-      const int whole = n / 2;
-#pragma omp simd
-      for (int i = 0; i < whole; ++i) {
-        weight[2 * i] = root[2 * i] * scale[i];
-        weight[2 * i + 1] = root[2 * i + 1] * scale[i];
-      }
-      if (2 * whole < n) weight[2 * whole] = root[2 * whole] * scale[whole];
-    }
-  });
 }
 
 void Multigrid::smooth(const Level& l, const float* x, const float* old, float old_factor, float* out,

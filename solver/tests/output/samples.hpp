@@ -1,12 +1,10 @@
-// Scenes and fields whose scalars are known by hand, and a directory of its own for each test.
+// Scenes and fields whose scalars are known by hand.
 #pragma once
 
 #include <array>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "solver/output/cell_fields.hpp"
 #include "solver/output/measures.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::test {
 
@@ -91,28 +90,6 @@ inline CellFields numbered_fields(const Scene& scene, double time) {
   for (auto& values : fields.u_c) count_up(values);
   return fields;
 }
-
-// A new directory, removed at the end of the test.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "granvof-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = name;
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  TemporaryDirectory(TemporaryDirectory&&) = delete;
-  TemporaryDirectory& operator=(TemporaryDirectory&&) = delete;
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // While it lives, no file of this process can grow beyond `bytes`: a full disk, without root.
 class FullDisk {

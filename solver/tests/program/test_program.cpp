@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "solver/tests/temporary_directory.hpp"
+
 namespace {
 
 struct Outcome {
@@ -19,13 +21,6 @@ struct Outcome {
 // A fresh working directory for each test.
 class Program : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "granvof-program-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   Outcome granvof(const std::string& arguments) const {
     const std::string command = "cd '" + directory_.string() + "' && '" GRANVOF_PROGRAM "' " + arguments +
                                 " >stdout.txt 2>stderr.txt </dev/null";
@@ -55,7 +50,8 @@ class Program : public ::testing::Test {
     return content.str();
   }
 
-  std::filesystem::path directory_;
+  granvof::test::TemporaryDirectory temporary_;
+  const std::filesystem::path& directory_ = temporary_.path();
 };
 
 TEST_F(Program, PrintsVersionAndHelp) {

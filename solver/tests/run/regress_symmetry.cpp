@@ -7,7 +7,7 @@ namespace granvof {
 namespace {
 
 using test::column_scene;
-using test::Steps;
+using test::Simulation;
 
 double largest(const Field& f) {
   double most = 0.0;
@@ -26,7 +26,7 @@ TEST(Symmetry, MirroredColumn) {
     if (mirrored) s.bed->box = {{0.11, 0.0, 0.0}, {0.16, 0.04, s.bed->box.upper[2]}};
     return s;
   };
-  Steps a(scene(false)), b(scene(true));
+  Simulation a(scene(false)), b(scene(true));
   const int n = a.grid.cells.n[0];
   struct Bound {
     double time, f_s, u;
@@ -63,7 +63,7 @@ TEST(Symmetry, OneCellDeepIsTwoDimensional) {
     }
     return s;
   };
-  Steps flat(scene(false)), deep(scene(true));
+  Simulation flat(scene(false)), deep(scene(true));
   flat.until(0.05);
   deep.until(0.05);
   EXPECT_EQ(flat.steps, deep.steps);
@@ -89,7 +89,7 @@ struct Spread {
          across = 0.0;  // largest difference along x; largest velocity along x
 };
 
-Spread spread_along_x(const Steps& run) {
+Spread spread_along_x(const Simulation& run) {
   Spread s;
   for (int j = 0; j < run.grid.cells.n[1]; ++j)
     for (int i = 0; i < run.grid.cells.n[0]; ++i) {
@@ -108,8 +108,8 @@ Scene piston(std::vector<std::string> overrides) {
 
 // Before the water stops the bed nothing amplifies what rounding leaves. Measured: 1.1e-9.
 TEST(Symmetry, NothingDependsOnXInAFallingPiston) {
-  Steps run(piston({"grid.dy=0.01", "model.granular_temperature=off", "numerics.volume_tolerance=1e-12",
-                    "numerics.linear_tolerance=1e-8"}));
+  Simulation run(piston({"grid.dy=0.01", "model.granular_temperature=off", "numerics.volume_tolerance=1e-12",
+                         "numerics.linear_tolerance=1e-8"}));
   run.until(0.015);
   EXPECT_GT(run.fastest(run.now.u_s), 0.1);
   const Spread s = spread_along_x(run);
@@ -124,7 +124,7 @@ TEST(Symmetry, NothingDependsOnXInAFallingPiston) {
 // tolerances do not change that. They then stay: up to 1.7e-4 in f_s and 2e-4 m/s were measured up to t =
 // 0.33. The bound is on their staying small.
 TEST(Symmetry, APistonStaysAPiston) {
-  Steps run(piston({}));
+  Simulation run(piston({}));
   for (double time : {0.01, 0.02, 0.05, 0.1, 0.2, 0.3}) {
     run.until(time);
     const Spread s = spread_along_x(run);
@@ -136,7 +136,7 @@ TEST(Symmetry, APistonStaysAPiston) {
 
 TEST(Rest, APoolStaysAtRest) {
   Scene scene = load_scene(GRANVOF_CASES_DIR "/pool.toml", std::vector<std::string>{"grid.dx=0.01"});
-  Steps run(scene);
+  Simulation run(scene);
   double fastest = 0.0;
   while (run.now.time < 0.5) {
     run.advance();

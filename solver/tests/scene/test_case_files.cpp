@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "solver/tests/scene/case_fixture.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::test {
 namespace {
@@ -19,13 +19,7 @@ namespace fs = std::filesystem;
 
 class CaseFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "granvof-scene-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-    write("small.toml", small_case);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
+  void SetUp() override { write("small.toml", small_case); }
 
   fs::path write(const std::string& name, std::string_view text) const {
     std::ofstream(directory_ / name) << text;
@@ -37,7 +31,8 @@ class CaseFiles : public ::testing::Test {
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
 
  private:
-  fs::path directory_;
+  TemporaryDirectory temporary_;
+  const fs::path& directory_ = temporary_.path();
 };
 
 TEST_F(CaseFiles, DeriveFromABase) {

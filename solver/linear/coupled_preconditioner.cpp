@@ -1,0 +1,125 @@
+// The preconditioner of CoupledSolver, as its header describes it.
+#include "solver/linear/coupled_solver.hpp"
+#include "solver/linear/face_operator.hpp"
+#include "solver/linear/flush_denormals.hpp"
+#include "solver/linear/multigrid_rows.hpp"
+#include "solver/linear/rows.hpp"
+
+namespace granvof::linear {
+namespace {
+
+constexpr int pressure_smoothing = 3, granular_smoothing = 2;
+
+// Rows of max(0, k22 - k21 k12 / k11) and m22.
+class SchurComplement final : public Coefficients {
+ public:
+  SchurComplement(const Layout& l, const CoupledSystem& s) : layout_(l), s_(s) {}
+  bool coupled(int d) const override { return s_.k22[d] != nullptr; }
+  void faces(int d, int j, int k, float* out) const override {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+    const double *a = s_.k11[d] + row, *b = s_.k12[d] + row, *c = s_.k21[d] + row, *e = s_.k22[d] + row;
+    const int n = layout_.n[0];
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      const double divisor = a[i] > 0.0 ? a[i] : 1.0;
+      const double shared = a[i] > 0.0 ? c[i] * b[i] : 0.0;
+      const double left = e[i] - shared / divisor;
+      out[i] = static_cast<float>(left > 0.0 ? left : 0.0);
+    }
+  }
+  void masses(int j, int k, float* out) const override {
+    const double* row = s_.m22 + layout_.index(0, j, k);
+    const int n = layout_.n[0];
+#pragma omp simd
+    for (int i = 0; i < n; ++i) out[i] = static_cast<float>(row[i]);
+  }
+
+ private:
+  const Layout& layout_;
+  const CoupledSystem& s_;
+};
+
+}  // namespace
+
+void CoupledSolver::set(const CoupledSystem& s) {
+  pressure_.set(Faces{s.k11}, s.m11);
+  granular_.set(SchurComplement(user_, s));
+  const int n = user_.n[0];
+  for (int d = 0; d < 3; ++d) {
+    if (!coupled_[d]) continue;
+    float* to = k21_[d].data();
+    for_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t here = layout_.index(0, j, k);
+      const double* from = s.k21[d] + user_.index(0, j, k);
+#pragma omp simd
+      for (int i = 0; i < n; ++i) to[here + i] = static_cast<float>(from[i]);
+    });
+    if (any_periodic(layout_)) communicator_.exchange(layout_, to);
+  }
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t here = layout_.index(0, j, k);
+    const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
+    const rows::FaceRow b = rows::face_row(s.k12, user_, j, k, zeros_.data());
+    float* theta = theta_.data() + here;
+    const auto total = [](const rows::FaceRow& f, double x_upper, int i) {
+      double sum = 0.0;
+      if (f.x) sum += f.x[i] + x_upper;
+      if (f.y) sum += f.y[i] + f.y_upper[i];
+      if (f.z) sum += f.z[i] + f.z_upper[i];
+      return sum;
+    };
+    const auto store = [=](int i, double above, double below) {
+      theta[i] = below > 0.0 ? static_cast<float>(above / below) : 0.0F;
+    };
+    if (coupled_[0]) {
+#pragma omp simd
+      for (int i = 0; i < n - 1; ++i) store(i, total(b, b.x[i + 1], i), total(a, a.x[i + 1], i));
+      store(n - 1, total(b, b.x_end, n - 1), total(a, a.x_end, n - 1));
+    } else {
+      for (int i = 0; i < n; ++i) store(i, total(b, 0.0, i), total(a, 0.0, i));
+    }
+  });
+}
+
+void CoupledSolver::precondition(const Pair& from, FloatPair& to) {
+  const int n = user_.n[0], width = padded(n);
+  const float *scale1 = pressure_.scale(), *scale2 = granular_.scale();
+  float *rhs1 = pressure_.residual(), *rhs2 = granular_.residual();
+  const double *r1 = from[0].data(), *r2 = from[1].data();
+  float *y1 = to[0].data(), *y2 = to[1].data();
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+#pragma omp simd
+    for (std::ptrdiff_t i = row; i < row + n; ++i) rhs1[i] = scale1[i] * static_cast<float>(r1[i]);
+  });
+  const float* p = pressure_.cycle(pressure_smoothing);
+  const FlushDenormals flush;
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+#pragma omp simd
+    for (std::ptrdiff_t i = row; i < row + width; ++i) y1[i] = scale1[i] * p[i];
+  });
+  if (any_periodic(layout_)) communicator_.exchange(layout_, y1);
+  const rows::Stencil k21{k21_[0].data(), k21_[1].data(), k21_[2].data(), layout_.stride[1],
+                          layout_.stride[2]};
+  const int length = layout_.periodic[0] ? n : width;  // periodic ghosts of the faces are not 0
+  with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+    for_rows(layout_, [&](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      rows::scaled_difference<X, Y, Z>(length, k21.at(row), r2 + row, y1 + row, scale2 + row, rhs2 + row);
+    });
+  });
+  const float* g = granular_.cycle(granular_smoothing);
+  const float* theta = theta_.data();
+  for_rows(layout_, [&](int j, int k) {
+    const std::ptrdiff_t row = layout_.index(0, j, k);
+#pragma omp simd
+    for (std::ptrdiff_t i = row; i < row + width; ++i) {
+      const float v = scale2[i] * g[i];
+      y2[i] = v;
+      y1[i] -= theta[i] * v;
+    }
+  });
+}
+
+}  // namespace granvof::linear
