@@ -161,13 +161,18 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
   }
   const auto checks = due_checks(table, frequency);
   std::map<std::string, std::vector<LoadedRun>> records;
-  for (const Check& check : checks) {
-    if (!check.reference.record || records.contains(*check.reference.record)) continue;
-    auto& variants = records[*check.reference.record];
-    variants = load_records(paths.records, *check.reference.record, scenes.at(check.run));
+  const auto load = [&](const std::string& name, const Scene& scene) {
+    if (records.contains(name)) return;
+    auto& variants = records[name];
+    variants = load_records(paths.records, name, scene);
     for (const LoadedRun& variant : variants)
-      if (variant.run) evaluation.records[*check.reference.record].push_back(*variant.run);
-  }
+      if (variant.run) evaluation.records[name].push_back(*variant.run);
+  };
+  for (const Check& check : checks)
+    if (check.reference.record) load(*check.reference.record, scenes.at(check.run));
+  // The plots show a record also where no row is judged by it.
+  for (const PlannedRun& plan : due_runs(table, frequency))
+    if (plan.set.empty()) load(plan.case_name, scenes.at(plan.id));
   for (const Check& check : checks) {
     const auto summary = std::find_if(evaluation.runs.begin(), evaluation.runs.end(),
                                       [&](const RunSummary& run) { return run.plan.id == check.run; });

@@ -1,5 +1,6 @@
 #include <map>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "compare/input/curves.hpp"
@@ -83,6 +84,7 @@ Json json_curves(const Run& run) {
   for (const char* column :
        {"front_dense", "y_c", "y_solid_mean", "interface_height", "bed_height_equivalent"})
     add(column, run.curve(column));
+  if (!run.scene.bed) add("scaled_liquid_front", scaled_liquid_front(run));
   return curves;
 }
 
@@ -138,6 +140,12 @@ std::string curves_json(const Evaluation& evaluation) {
   for (const auto& [id, run] : evaluation.usable) json["runs"][id] = json_entry(run);
   for (const auto& [name, variants] : evaluation.records)
     for (const Run& run : variants) json["records"][name][run.id] = json_entry(run);
+  // Levels take reading all the fields: only those that a row asks for.
+  for (const Result& result : evaluation.results)
+    if (const auto run = evaluation.usable.find(result.check.run);
+        result.check.parameters.level && run != evaluation.usable.end())
+      json["runs"][run->first]["curves"][fmt::format("solid_level_{:g}", *result.check.parameters.level)] =
+          json_curve(solid_level_curve(run->second, *result.check.parameters.level));
   return json.dump() + "\n";
 }
 

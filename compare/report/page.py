@@ -12,8 +12,8 @@ from report.results import changes
 ORDER = ["differs", "stale", "not run", "expected failure", "within band", "agrees"]
 
 
-def render(results, plots):
-    """The page as text. `plots` are names in results.directory / "plots"."""
+def render(results, plots, sections=()):
+    """The page as text. `plots` are names in results.directory / "plots"; `sections` those of others (sections.py)."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["number"] = number
@@ -31,6 +31,7 @@ def render(results, plots):
         rows=sorted(results.rows, key=lambda row: (not row["unexpected"], ORDER.index(row["verdict"]))),
         runs=[run_facts(run) for run in results.runs.values()],
         films=films(results),
+        sections=sections,
         plots=[{"name": name, "caption": figures.caption(name),
                 "data": encoded(results.directory / "plots" / f"{name}.png")} for name in plots])
 
@@ -64,7 +65,9 @@ def run_facts(run):
 
 
 def number(value, digits=4):
-    return "–" if value is None else f"{value:.{digits}g}"
+    if value is None:
+        return "–"
+    return value if isinstance(value, str) else f"{value:.{digits}g}"
 
 
 def encoded(path):

@@ -7,16 +7,24 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from report import figures, page, results  # noqa: E402
+from report import figures, page, results, sections  # noqa: E402
+
+ROOT = Path(__file__).resolve().parent.parent.parent
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--verify", type=Path, required=True, help="directory with results.json and curves.json")
+    parser.add_argument("--cases", type=Path, default=ROOT / "cases", help="case files, with published/")
     options = parser.parse_args(arguments)
-    loaded = results.load(options.verify)
+    loaded = results.load(options.verify, options.cases)
+    try:
+        others = sections.read_all(options.verify.resolve().parent)
+    except ValueError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 2
     plots = figures.draw_all(loaded, options.verify / "plots")
-    (options.verify / "report.html").write_text(page.render(loaded, plots), encoding="utf-8")
+    (options.verify / "report.html").write_text(page.render(loaded, plots, others), encoding="utf-8")
     return 0
 
 

@@ -19,6 +19,7 @@ class Results:
     previous_date: str = ""
     curves: dict = field(default_factory=dict)  # id -> {"scene", "directory", "curves"}
     records: dict = field(default_factory=dict)  # scene -> variant -> the same
+    cases: Path = Path("cases")  # directory of the case files, with published/
 
     def row(self, scene, metric):
         """The first row of that scene and metric, or None."""
@@ -27,6 +28,16 @@ class Results:
     def curve(self, run, name):
         """Arrays x, y of a run's curve; None where there is none."""
         return arrays(self.curves.get(run, {}), name)
+
+    def published(self, file, column):
+        """Arrays of a series of cases/published: its first column and the one named; None where there is no such file."""
+        path = self.cases / "published" / file
+        if not path.exists():
+            return None
+        lines = [line.split("\t") for line in path.read_text().splitlines() if line and not line.startswith("#")]
+        index = [name.split(" [")[0] for name in lines[0]].index(column)
+        values = np.array([[float(line[0]), float(line[index])] for line in lines[1:]])
+        return values[:, 0], values[:, 1]
 
     def facts(self, *names):
         return [self.runs[name] for name in names if name in self.runs]
@@ -37,11 +48,12 @@ def arrays(entry, name):
     return (np.array(curve["x"]), np.array(curve["y"])) if curve else None
 
 
-def load(directory):
+def load(directory, cases=Path("cases")):
     """Reads results.json, curves.json and, if there is one, results.previous.json of a directory."""
     results = json.loads((directory / "results.json").read_text())
     loaded = Results(directory, results["date"], results["frequency"], results["results"],
                      {run["id"]: run for run in results["runs"]})
+    loaded.cases = cases
     curves = json.loads((directory / "curves.json").read_text())
     loaded.curves, loaded.records = curves["runs"], curves["records"]
     before = directory / "results.previous.json"

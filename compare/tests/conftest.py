@@ -30,9 +30,11 @@ def rows_of_a_comparison():
     for ratio in (0.2, 0.4, 0.6, 0.8):
         name = f"float-full-r{10 * ratio:02.0f}"
         rows.append(row_of(id=f"{name}.share", scene=name, metric="immersed_share", value=ratio + 0.001, reference=ratio,
-                             verdict="agrees", unexpected=False, distance=0.0, deviation=0.001))
+                             reference_kind="theory", verdict="agrees", unexpected=False, distance=0.0, deviation=0.001))
+        rows.append(row_of(id=f"{name}.share.DEM", scene=name, metric="immersed_share", value=ratio + 0.001, reference=ratio - 0.01,
+                             verdict="agrees", unexpected=False, distance=0.0, deviation=0.011))
         rows.append(row_of(id=f"{name}.period", scene=f"{name}-nodrag", metric="period", unit="s", value=ratio, reference=ratio,
-                             verdict="agrees", unexpected=False, distance=0.0, deviation=0.0))
+                             reference_kind="theory", verdict="agrees", unexpected=False, distance=0.0, deviation=0.0))
     return rows
 
 
@@ -67,7 +69,7 @@ def make_rows():
 
 
 def make_comparison(root):
-    names = ["s1", "s2", "s1-loose"] + [f"float-full-r0{r}{kind}" for r in (2, 4, 6, 8) for kind in ("", "-nodrag")]
+    names = ["s1", "s2", "s1-loose", "sw-2d", "dam-break", "sedimentation", "rondon-loose"] + [f"float-full-r0{r}{kind}" for r in (2, 4, 6, 8) for kind in ("", "-nodrag")]
     t = np.linspace(0, 6, 200)
     curves = {}
     for name in names:
@@ -77,10 +79,11 @@ def make_comparison(root):
                  "gravity": 9.81, "density_ratio": 0.2, "drag": True, "end": 6.0, "time_unit": 0.07, "field_times": [0, 0.7],
                  "bed": {"lower": [0, 0, 0], "upper": [0.05, 0.04, 0], "solid_fraction": 0.57}}
         given = {"run_out": (t, t / 3), "excess_base_pressure": (t, np.exp(-t)), "y_c_deviation": (t, np.cos(t)),
-                 "y_solid_mean_deviation": (t, np.cos(t))}
+                 "y_solid_mean_deviation": (t, np.cos(t)), "front_dense": (t, t / 3), "scaled_liquid_front": (t, 1 + t),
+                 "solid_level_0.25": (t, 0.05 - t / 200), "solid_level_0.55": (t, t / 200)}
         curves[name] = {"scene": scene, "directory": str(root / "runs" / name),
                         "curves": {key: {"x": list(x), "y": list(y)} for key, (x, y) in given.items()}}
-    records = {"s1": {f"seed{seed}": curves["s1"] for seed in (1, 2)}}
+    records = {"s1": {f"seed{seed}": curves["s1"] for seed in (1, 2)}, "s2": {"seed1": curves["s2"]}}
     directory = root / "verify"
     directory.mkdir()
     (directory / "results.json").write_text(json.dumps({

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from PIL import Image
-from report import figures, film, page, results
+from report import drawing, figures, film, page, report, results, sections, snapshots, style
 
 
 def write_previous(directory, rows):
@@ -22,7 +22,8 @@ def changed_rows(directory, rows):
 
 def test_report_writes_every_plot_as_png_and_pdf(reported):
     plots = {path.stem for path in (reported / "plots").glob("*.png")}
-    assert plots == {"run-out", "base-pressure", "centre-height", "floating-theory", "snapshots-s1", "snapshots-float-full-r02"}
+    assert plots == {"run-out", "base-pressure", "floating-run-out", "centre-height", "floating-theory", "dam-break", "sedimentation",
+                     "viscous-collapse", "snapshots-s1", "snapshots-float-full-r02"}
     assert plots == {path.stem for path in (reported / "plots").glob("*.pdf")}
     text = (reported / "report.html").read_text()
     films = list((reported / "plots").glob("*.apng"))
@@ -121,16 +122,105 @@ def test_rounding_noise_of_a_conserved_volume_is_no_change(verify_directory, mak
 
 def test_a_plot_without_its_runs_is_left_out(verify_directory, tmp_path):
     loaded = results.load(verify_directory)
-    loaded.curves, loaded.rows = {}, []
+    loaded.curves, loaded.records, loaded.rows = {}, {}, []
     assert figures.draw_all(loaded, tmp_path / "plots") == []
 
 
 def test_the_run_out_curve_breaks_where_its_definition_changes():
-    x, y = figures.with_gap(np.array([7.0, 8.0, 9.0]), np.array([1.0, 2.0, 3.0]), 8.0)
+    x, y = drawing.with_gap(np.array([7.0, 8.0, 9.0]), np.array([1.0, 2.0, 3.0]), 8.0)
     assert np.isnan(y).tolist() == [False, False, True, False]
-    assert figures.with_gap(np.array([1.0, 2.0]), np.array([1.0, 2.0]), 8.0)[1].tolist() == [1.0, 2.0]
+    assert drawing.with_gap(np.array([1.0, 2.0]), np.array([1.0, 2.0]), 8.0)[1].tolist() == [1.0, 2.0]
 
 
-@pytest.mark.parametrize("value, text", [(None, "–"), (1.23456, "1.235"), (1e-12, "1e-12")])
+@pytest.fixture
+def axis():
+    figure, drawn = style.plt.subplots()
+    yield drawn
+    style.plt.close(figure)
+
+
+def record(shift):
+    return {"curves": {"run_out": {"x": [0.0, 1.0, 2.0], "y": [shift, 1.0 + shift, 2.0 + shift]}}}
+
+
+def draw_seeds(axis, verify_directory, shifts):
+    loaded = results.load(verify_directory)
+    loaded.records = {"s1": {f"seed{index}": record(shift) for index, shift in enumerate(shifts, 1)}}
+    return drawing.draw_records(axis, loaded, "s1", "run_out", style.BLUE, "S1")
+
+
+def test_one_seed_is_a_line_that_states_no_band(axis, verify_directory):
+    assert draw_seeds(axis, verify_directory, [0.5])
+    assert [line.get_label() for line in axis.lines] == ["DEM-VOF, S1 (one seed, no band)"]
+    assert axis.lines[0].get_ydata()[-1] == 2.5
+    assert not axis.collections
+
+
+def test_two_seeds_are_their_mean_with_their_range(axis, verify_directory):
+    assert draw_seeds(axis, verify_directory, [0.0, 0.5])
+    assert axis.lines[0].get_label() == "DEM-VOF, S1 (mean and range of 2 seeds)"
+    assert axis.lines[0].get_ydata()[-1] == 2.25
+    band = axis.collections[0].get_paths()[0].vertices
+    assert {y for x, y in band if x == 2.0} == {2.0, 2.5}
+
+
+def test_without_a_record_nothing_is_drawn(axis, verify_directory):
+    assert not draw_seeds(axis, verify_directory, [])
+    assert not axis.lines
+
+
+def test_a_record_alone_makes_a_figure(verify_directory, tmp_path):
+    loaded = results.load(verify_directory)
+    loaded.curves = {}
+    assert figures.run_out_plot(loaded, tmp_path) == ["run-out"]
+
+
+def test_recorded_fields_stand_beside_ours_at_the_same_times(verify_directory):
+    loaded = results.load(verify_directory)
+    scene = loaded.curves["s1"]["scene"]
+    variant, shots = snapshots.recorded_shots(loaded, "s1", [0.0, 0.35, 0.5], scene)
+    assert variant == "seed1"
+    assert [shot and shot[0] for shot in shots] == [0.0, 0.35, None]
+    assert snapshots.recorded_shots(loaded, "float-full-r02", [0.0], scene) == (None, [])
+
+
+def test_published_series_are_read_by_column(verify_directory):
+    loaded = results.load(verify_directory, report.ROOT / "cases")
+    x, y = loaded.published("pham_van_bang_fronts.tsv", "packed_front")
+    assert (x[0], y[0]) == (172.0, 0.0054688)
+    assert loaded.published("none.tsv", "packed_front") is None
+
+
+def write_section(directory, name="charts", **content):
+    (directory / name).mkdir()
+    Image.new("RGB", (120, 120)).save(directory / name / "a-b.png")
+    (directory / name / f"{name}.json").write_text(json.dumps(content))
+
+
+def test_sections_of_others_are_shown(tmp_path, verify_directory):
+    write_section(tmp_path, "stability", title="Where it <holds>", text="One line.", commit="abc1234",
+                  tables=[{"columns": ["method", "cost"], "rows": [["PLIC", 1.23456]]}])
+    write_section(tmp_path, "charts", title="Charts", figures=[{"file": "a-b.png", "caption": "s1 & s2"}])
+    found = sections.read_all(tmp_path)
+    assert [section.name for section in found] == ["charts", "stability"]
+    text = page.render(results.load(verify_directory), [], found)
+    assert "Where it &lt;holds&gt;" in text and "s1 &amp; s2" in text and 'data-value="1.23456">1.235<' in text
+    assert 'alt="a b"' in text and "One line." in text and "abc1234" in text
+
+
+@pytest.mark.parametrize("content", [{}, {"title": "t", "figures": [{"file": "gone.png", "caption": "c"}]}, {"title": "t", "tables": [{}]}])
+def test_a_damaged_section_is_refused_by_name(tmp_path, content):
+    write_section(tmp_path, **content)
+    with pytest.raises(ValueError, match="charts.json: cannot be shown"):
+        sections.read_all(tmp_path)
+
+
+def test_a_damaged_section_ends_the_report(verify_directory, capsys):
+    write_section(verify_directory.parent)
+    assert report.main(["--verify", str(verify_directory)]) == 2
+    assert "charts.json" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("value, text", [(None, "–"), ("text", "text"), (1.23456, "1.235"), (1e-12, "1e-12")])
 def test_numbers(value, text):
     assert page.number(value) == text

@@ -1,0 +1,58 @@
+"""Sections of the page that others make: a folder of figures beside out/verify, with one JSON that says what they show.
+
+    out/NAME/NAME.json     {"title": "Accuracy against cost", "text": ["one paragraph", ...],
+                            "figures": [{"file": "s1.png", "caption": "..."}, ...],
+                            "tables": [{"caption": "...", "columns": ["a", ...], "rows": [[1.5, ...], ...]}, ...],
+                            "commit": "abc1234", "date": "2026-01-01T00:00:00Z"}
+
+Only "title" is needed. Without "figures" all PNG of the folder are shown, named by their files. A section that was
+made at another commit than the runs of the page says so by its own commit and date.
+"""
+
+import base64
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+NAMES = ("charts", "stability", "energy")  # in the order of the page
+
+
+@dataclass
+class Section:
+    name: str
+    title: str
+    text: list = field(default_factory=list)
+    figures: list = field(default_factory=list)  # {"name", "caption", "data"}
+    tables: list = field(default_factory=list)
+    made: str = ""
+
+
+def read_all(out):
+    """The sections that are there, below the directory that also holds verify/. Raises ValueError with the file's name
+    where one is damaged."""
+    return [read(out / name) for name in NAMES if (out / name / f"{name}.json").exists()]
+
+
+def read(directory):
+    source = directory / f"{directory.name}.json"
+    try:
+        given = json.loads(source.read_text(encoding="utf-8"))
+        figures = given.get("figures", [{"file": path.name, "caption": path.stem.replace("-", " ")}
+                                        for path in sorted(directory.glob("*.png"))])
+        return Section(directory.name, given["title"], listed(given.get("text", [])),
+                       [figure(directory, entry) for entry in figures],
+                       [{"caption": table.get("caption", ""), "columns": table["columns"], "rows": table["rows"]}
+                        for table in given.get("tables", [])],
+                       ", ".join(given[key] for key in ("commit", "date") if given.get(key)))
+    except (KeyError, TypeError, AttributeError, OSError, ValueError) as error:
+        raise ValueError(f"{source}: cannot be shown: {type(error).__name__}: {error}") from error
+
+
+def figure(directory, entry):
+    path = directory / Path(entry["file"]).name
+    return {"name": f"{directory.name}-{path.stem}", "caption": entry["caption"],
+            "data": base64.b64encode(path.read_bytes()).decode("ascii")}
+
+
+def listed(text):
+    return [text] if isinstance(text, str) else list(text)

@@ -1,0 +1,96 @@
+"""Fig. 3 of the paper: the fields at the output times, ours beside those of the DEM-VOF record where there is one."""
+
+import numpy as np
+
+from report import style
+from report.results import snapshots
+from report.style import plt
+
+MOST_SHOTS = 8
+EMPTY = 0.05  # solid fraction below which a cell shows no colour
+
+
+def snapshot_plot(results, run, directory):
+    """Solid fraction, colour of the grains and the record's solid fraction; black line where alpha = 0.5."""
+    entry = results.curves[run]
+    scene = entry["scene"]
+    shots = list(snapshots(entry))
+    if not shots:
+        return []
+    if len(shots) > MOST_SHOTS:
+        shots = [shots[i] for i in np.unique(np.linspace(0, len(shots) - 1, MOST_SHOTS).round().astype(int))]
+    columns = [("solid fraction $f_s$ [-]", solid_image, shots)]
+    if any(has_colours(f_s, phi) for _, f_s, _, phi in shots):
+        columns.append(("colour $\\phi$ [-]", colour_image, shots))
+    variant, recorded = recorded_shots(results, run, [shot[0] for shot in shots], scene)
+    if variant:
+        columns.append((f"DEM-VOF ({variant}), $f_s$ [-]", solid_image, recorded))
+    draw(columns, shots, scene, results.facts(run), directory / f"snapshots-{run}")
+    return [f"snapshots-{run}"]
+
+
+def recorded_shots(results, run, times, scene):
+    """Name of the first variant with fields, and its instants at `times`, None where it has none."""
+    for variant, entry in sorted(results.records.get(run, {}).items()):
+        found = list(snapshots(entry))
+        near = [next((shot for shot in found if abs(shot[0] - time) < 0.02 * scene["time_unit"]), None) for time in times]
+        if any(near):
+            return variant, near
+    return None, []
+
+
+def draw(columns, shots, scene, facts, path):
+    width, height = 1e3 * scene["tank"][0], 1e3 * scene["tank"][1]
+    tall = height > 1.5 * width
+    if tall:
+        figure, axes = plt.subplots(len(columns), len(shots), squeeze=False, sharex=True, sharey=True,
+                                    figsize=(1.1 * len(shots) + 1.2, 3.2 * len(columns)))
+        axes = axes.T
+    else:
+        figure, axes = plt.subplots(len(shots), len(columns), squeeze=False, sharex=True, sharey=True,
+                                    figsize=(3.6 * len(columns) + 0.8, (3.4 * height / width + 0.28) * len(shots) + 0.9))
+    for column, (label, image, given) in enumerate(columns):
+        drawn = [draw_shot(axis, image, shot, width, height) for axis, shot in zip(axes[:, column], given) if shot]
+        figure.colorbar(drawn[0], ax=axes[:, column], label=label, shrink=0.8, location="right" if tall else "bottom",
+                        aspect=30, pad=0.01)
+    for axis, shot in zip(axes[:, 0], shots):
+        axis.set_title(label_of_time(shot[0], scene), loc="left", fontsize=8)
+    for axis in axes.flat:
+        axis.grid(False)
+        axis.set_aspect("auto" if height > 5 * width else "equal")  # a column: drawn wider than it is
+    figure.supylabel("y [mm]", fontsize=9)
+    for axis in axes[:, -1] if tall else axes[-1]:
+        axis.set_xlabel("x [mm]")
+    style.stamp(figure, facts)
+    style.save(figure, path.parent, path.name)
+
+
+def label_of_time(time, scene):
+    time = abs(time)  # the first instant may be -0
+    return f"T = {time / scene['time_unit']:.3g}" if scene["time_unit"] != 1.0 else f"t = {time:.3g} s"
+
+
+def has_colours(f_s, phi):
+    """Whether the grains carry more than one colour."""
+    if phi is None or not (f_s > EMPTY).any():
+        return False
+    shown = phi[f_s > EMPTY]
+    return shown.max() - shown.min() > 0.05
+
+
+def solid_image(axis, f_s, _, extent):
+    return axis.imshow(f_s, origin="lower", extent=extent, vmin=0, vmax=0.63, cmap="YlOrBr")
+
+
+def colour_image(axis, f_s, phi, extent):
+    return axis.imshow(np.ma.masked_where(f_s < EMPTY, phi), origin="lower", extent=extent, vmin=0, vmax=1, cmap="cividis")
+
+
+def draw_shot(axis, image, shot, width, height):
+    _, f_s, alpha, phi = shot
+    rows, columns = f_s.shape
+    drawn = image(axis, f_s, phi, (0, width, 0, height))
+    if min(rows, columns) > 1 and alpha.min() < 0.5 < alpha.max():
+        axis.contour((np.arange(columns) + 0.5) * width / columns, (np.arange(rows) + 0.5) * height / rows, alpha, levels=[0.5],
+                     colors="black", linewidths=1.0)
+    return drawn
