@@ -3,6 +3,7 @@
 # REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is reported as `not run`)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
+# LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
 # Debian's interpreter: another python3 on PATH has not got Debian's packages.
@@ -10,6 +11,7 @@ PYTHON := /usr/bin/python3
 JOBS ?= $(shell nproc)
 OUT ?= out
 REFERENCE ?= on
+LABELS ?= unit|verification
 export JOBS
 
 RELEASE := build/release
@@ -38,7 +40,7 @@ verify: setup  ## run the scenes and check them: table, out/verify/report.html, 
 
 test: setup  ## unit and verification tests (ctest), then the Python tests
 	ci/build --reference=$(REFERENCE) release
-	ctest --preset release --label-regex '^(unit|verification)$$' --parallel $(JOBS)
+	ctest --preset release --label-regex '^($(LABELS))$$' --parallel $(JOBS)
 	$(PYTHON) -m pytest -q -p no:cacheprovider --import-mode=importlib $(PYTEST_DIRS)
 
 reference: setup  ## run and record the DEM-VOF reference where missing or stale (SCENE=s1: one scene)

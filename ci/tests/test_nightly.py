@@ -89,7 +89,7 @@ def test_twice_on_one_commit_is_no_change_then_a_change_then_blessed(repository)
     assert len(runs) == 4
     assert {"1-clone.log", "2-build.log", "3-tests.log", "4-verify.log", "6-performance.log", "summary.txt", "trends.html",
             "state.json", "times.json", "verify"} <= {p.name for p in runs[0].iterdir()}
-    assert not (runs[-1] / "clone").exists()
+    assert not (repository / "out/nightly/clone").exists()
     page = (runs[-1] / "trends.html").read_text()
     assert "data:image/png;base64," in page and "http" not in page
 
@@ -115,6 +115,29 @@ def test_interrupted_run_goes_on(repository):
     assert "2/7 build        passed (before)" in again.stdout
     assert again.returncode == 0, again.stdout + again.stderr
     assert len(list((repository / "out/nightly/runs").iterdir())) == 1
+
+
+def test_interrupted_run_begins_anew_where_its_clone_is_of_another_commit(repository):
+    flag = repository.parent / "ready"
+    (repository / "ci/performance").write_text(
+        f"#!/bin/sh\ntest -e {flag} || kill -INT $(cat {repository}/out/nightly/lock)\nsleep 2\necho '{{}}' > \"$4\"\n")
+    commit(repository)
+    assert nightly(repository).returncode != 0
+    flag.touch()
+    git(repository / "out/nightly/clone", "commit", "-q", "--allow-empty", "-m", "another")
+    again = nightly(repository)
+    assert "going on with" in again.stdout and "(before)" not in again.stdout
+    assert again.returncode == 0, again.stdout + again.stderr
+
+
+def test_a_trial_runs_the_unit_tests_and_leaves_the_benchmarks_out(repository):
+    (repository / "Makefile").write_text("test:\n\t@echo labels $(LABELS)\n")
+    (repository / "ci/bench").write_text("#!/bin/sh\nexit 1\n")
+    commit(repository)
+    assert nightly(repository, "--frequency", "short").returncode == 0
+    log = next((repository / "out/nightly/runs").iterdir()) / "3-tests.log"
+    assert "labels unit" in log.read_text()
+    assert nightly(repository).returncode == 1
 
 
 def test_only_one_at_a_time(repository):

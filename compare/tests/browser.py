@@ -9,24 +9,29 @@ import urllib.error
 import urllib.request
 
 
-def available():
-    return shutil.which("chromedriver") is not None and shutil.which("chromium") is not None
+def program(name):
+    """Path of the program; a clear error where it is missing: a test that is skipped tells nothing."""
+    path = shutil.which(name)
+    if path is None:
+        raise RuntimeError(f"no {name} here; ci/setup installs chromium and chromium-driver")
+    return path
 
 
 class Browser:
     """One page at a time; `size` is the window in pixels."""
 
     def __init__(self, profile, size=(1280, 900)):
+        chromium = program("chromium")
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
-        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL,
+        self.driver = subprocess.Popen([program("chromedriver"), f"--port={port}"], stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)
         self.base = f"http://127.0.0.1:{port}"
         # --no-sandbox: containers and root have no user namespaces; the page is our own file.
         arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                      f"--user-data-dir={profile}", f"--window-size={size[0]},{size[1]}"]
-        options = {"args": arguments, "binary": shutil.which("chromium")}
+        options = {"args": arguments, "binary": chromium}
         capabilities = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
         try:
             self.wait_for_driver()

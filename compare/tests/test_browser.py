@@ -9,8 +9,6 @@ _spec = importlib.util.spec_from_file_location("browser", Path(__file__).with_na
 browser = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(browser)
 
-pytestmark = pytest.mark.skipif(not browser.available(), reason="chromium and chromium-driver are not installed")
-
 ENTER, SPACE = "\ue007", " "
 FIRST_TABLE = "document.querySelectorAll('table.sortable')[0]"
 

@@ -44,6 +44,18 @@ def test_runs_what_the_plan_says(verify, tmp_path, capsys):
     assert "a " in printed and "done" in printed
 
 
+def test_the_canary_can_be_left_out(verify, tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(verify, "run_canary", lambda build_dir, out: asked.append(out) or ("agrees", "said"))
+    arguments = stand_ins(tmp_path)
+    program(tmp_path / "compare/granvof-compare", f'[ "$1" = plan ] || echo "$@" >> "{tmp_path}/checked"\n')
+    assert verify.main([*arguments, "--without-canary"]) == 0
+    assert verify.main(arguments) == 0
+    without, with_it = (tmp_path / "checked").read_text().splitlines()
+    assert "--canary" not in without and with_it.endswith("--canary agrees --canary-note said")
+    assert len(asked) == 1
+
+
 def test_a_failed_run_is_named_with_its_reason(verify, tmp_path, capsys):
     arguments = stand_ins(tmp_path, solver='echo "step collapse at t = 0.1 s" >&2; exit 1')
     assert verify.main(arguments) == 1
