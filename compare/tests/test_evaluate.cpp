@@ -10,6 +10,7 @@
 #include "compare/checks/table.hpp"
 #include "compare/output/write.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -18,13 +19,6 @@ namespace fs = std::filesystem;
 
 class Evaluate : public testing::Test {
  protected:
-  void SetUp() override {
-    root_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(root_);
-    paths_ = {root_ / "runs", fs::path(GRANVOF_CASES_DIR), root_ / "records"};
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   static void write(const fs::path& file, const std::string& text) {
     fs::create_directories(file.parent_path());
     std::ofstream(file) << text;
@@ -80,8 +74,9 @@ class Evaluate : public testing::Test {
       "metric = \"run_out\"\nat = 5\nreference = { kind = \"DEM\", record = \"s1\" }\n"
       "tolerance = { absolute = 0.01, unit = \"-\" }\n";
 
-  fs::path root_;
-  Paths paths_;
+  test::TemporaryDirectory directory_;
+  const fs::path& root_ = directory_.path();
+  Paths paths_{root_ / "runs", fs::path(GRANVOF_CASES_DIR), root_ / "records"};
   Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml");
 };
 

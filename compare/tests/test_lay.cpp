@@ -9,6 +9,7 @@
 #include "compare/lay/lay.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 class Lay : public testing::Test {
  protected:
   compare::Run theirs(const std::string& text) const {
-    const auto file = std::filesystem::path(testing::TempDir()) / "theirs.csv";
+    const auto file = directory_.path() / "theirs.csv";
     std::ofstream(file) << text;
     return read_their_series(file, scene_);
   }
@@ -30,6 +31,7 @@ class Lay : public testing::Test {
     return "accepted";
   }
 
+  const test::TemporaryDirectory directory_;
   const Scene scene_ = load_scene(std::filesystem::path(GRANVOF_CASES_DIR) / "s1.toml");
   const double height_ = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
   const double tau_ = std::sqrt(height_ / scene_.gravity);

@@ -6,19 +6,21 @@
 #include "compare/input/published.hpp"
 #include "compare/metrics/solid_level.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
 
-std::filesystem::path file_of(const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "published.tsv";
+Curve read(const std::string& text, const char* column) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.path() / "published.tsv";
   std::ofstream(file) << text;
-  return file;
+  return read_published(file, column);
 }
 
 std::string refusal(const std::string& text, const char* column = "y") {
   try {
-    read_published(file_of(text), column);
+    read(text, column);
   } catch (const OutputError& error) {
     return error.what();
   }
@@ -26,7 +28,7 @@ std::string refusal(const std::string& text, const char* column = "y") {
 }
 
 TEST(Published, ReadsTheNamedColumn) {
-  const Curve curve = read_published(file_of("# who\nx [s]\ty [m]\tz [m]\n0\t1\t2\n1.5\t-3e-2\t4\n"), "z");
+  const Curve curve = read("# who\nx [s]\ty [m]\tz [m]\n0\t1\t2\n1.5\t-3e-2\t4\n", "z");
   EXPECT_EQ(curve.time, (std::vector<double>{0.0, 1.5}));
   EXPECT_EQ(curve.value, (std::vector<double>{2.0, 4.0}));
 }
