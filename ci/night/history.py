@@ -73,6 +73,8 @@ class Run:
     stages: tuple[StageRow, ...] = ()
     metrics: tuple[Metric, ...] = ()
     costs: tuple[Cost, ...] = ()
+    unusable: tuple[str, ...] = ()  # runs that could not be compared, and why; for the summary alone
+    without: tuple[str, ...] = ()   # stages that were left out; likewise
 
 
 @dataclass(frozen=True)

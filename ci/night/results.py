@@ -18,10 +18,11 @@ def _number(value: object, where: str) -> float | None:
     return number
 
 
-def read_verification(path: Path) -> tuple[list[Metric], list[Cost]]:
-    """Metrics and core-seconds of a results.json; both empty where there is none (the stage did not get so far)."""
+def read_verification(path: Path) -> tuple[list[Metric], list[Cost], list[str]]:
+    """Metrics and core-seconds of a results.json, and the runs it could not use; all empty where there is none (the stage
+    did not get so far)."""
     if not path.exists():
-        return [], []
+        return [], [], []
     data = json.loads(path.read_text(encoding="utf-8"))
     metrics = [
         Metric(r["id"], r["scene"], r["metric"], r["unit"], _number(r["value"], r["id"]),
@@ -33,7 +34,9 @@ def read_verification(path: Path) -> tuple[list[Metric], list[Cost]]:
         for run in data["runs"]
         if run.get("numbers", {}).get("core_seconds") is not None
     ]
-    return metrics, costs
+    unusable = [f"{run['id']}: {run['state']}, {run.get('reason') or 'no reason given'}"
+                for run in data["runs"] if run.get("state", "usable") != "usable"]
+    return metrics, costs, unusable
 
 
 def read_times(path: Path) -> list[Cost]:

@@ -20,6 +20,7 @@ class Findings:
     costs: dict[str, Change] = field(default_factory=dict)
     appeared: list[str] = field(default_factory=list)  # checks that the last run of this frequency had not
     vanished: list[str] = field(default_factory=list)
+    unusable: Sequence[str] = ()  # runs that could not be compared
 
     def changed_metrics(self) -> list[str]:
         return [name for name, change in self.metrics.items() if change.changed]
@@ -28,13 +29,14 @@ class Findings:
         return [name for name, change in self.costs.items() if change.state == "up"]
 
     def exit_code(self) -> int:
-        bad = self.broken_stages or self.unexpected or self.changed_metrics() or self.slower() or self.vanished
+        bad = (self.broken_stages or self.unexpected or self.changed_metrics() or self.slower() or self.vanished
+               or self.unusable)
         return 1 if bad else 0
 
 
 def find(run: Run, history: History, blessed: Sequence[Blessing]) -> Findings:
     """Compares a run with what the history holds from before its date."""
-    found = Findings()
+    found = Findings(unusable=run.unusable)
     for stage in run.stages:
         if stage.status == stages.NOT_AVAILABLE:
             found.missing_stages.append(stage.name)
@@ -76,7 +78,8 @@ def headline(found: Findings) -> str:
     if found.broken_stages:
         parts.append("stages not passed: " + ", ".join(found.broken_stages))
     for count, what in ((len(found.unexpected), "unexpected verdicts"), (len(found.changed_metrics()), "changed metrics"),
-                        (len(found.slower()), "slower"), (len(found.vanished), "checks gone")):
+                        (len(found.unusable), "runs without a result"), (len(found.slower()), "slower"),
+                        (len(found.vanished), "checks gone")):
         if count:
             parts.append(f"{count} {what}")
     return "; ".join(parts) or "no change"
@@ -100,8 +103,10 @@ def text(run: Run, found: Findings) -> str:
     for state, title in (("up", "slower"), ("down", "faster"), ("suspect", "cost to watch (one night only)")):
         section(title, [_change_line(name, change, cost_units[name])
                         for name, change in found.costs.items() if change.state == state])
+    section("runs that could not be compared", [f"  {line}" for line in run.unusable])
     section("checks that are gone", [f"  {name}" for name in found.vanished])
     section("new checks", [f"  {name}" for name in found.appeared])
+    section("stages left out", [f"  {name}" for name in run.without])
     section("not available in this version", [f"  {name}" for name in found.missing_stages])
     without = sum(1 for change in found.metrics.values() if change.state == "no history")
     counts: dict[str, int] = {}

@@ -140,6 +140,25 @@ def test_a_trial_runs_the_unit_tests_and_leaves_the_benchmarks_out(repository):
     assert nightly(repository).returncode == 1
 
 
+def test_stages_can_be_left_out_and_are_named(repository):
+    (repository / "ci/build").write_text("#!/bin/sh\necho built with $*\n")
+    commit(repository)
+    done = nightly(repository, "--without", "tests", "reference")
+    assert done.returncode == 0, done.stdout
+    assert "3/5 verify" in done.stdout and "stages left out\n  reference\n  tests\n" in done.stdout
+    log = next((repository / "out/nightly/runs").iterdir()) / "2-build.log"
+    assert "built with --programs --reference=off release" in log.read_text()
+
+
+def test_a_run_that_failed_is_named(repository):
+    (repository / "compare/verify").write_text(VERIFY.replace(
+        'runs = [', 'runs = [{"id": "sw-2d", "state": "failed", "reason": "step collapse"}, ') + "sys.exit(1)\n")
+    commit(repository)
+    done = nightly(repository)
+    assert done.returncode == 1
+    assert "stages not passed: verify: failed; 1 runs without a result" in done.stdout and "  sw-2d: failed, step collapse" in done.stdout
+
+
 def test_only_one_at_a_time(repository):
     out = repository / "out/nightly"
     out.mkdir(parents=True)

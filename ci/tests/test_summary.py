@@ -1,5 +1,7 @@
 """What a night reports, and its exit code."""
 
+from dataclasses import replace
+
 import pytest
 
 from night import blessings, summary
@@ -52,6 +54,16 @@ def test_changed_metric_is_red_until_blessed(history):
     blessing = Blessing(night(5).date, night(5).commit, "run-out", "2.16", "2.5", "someone", "a better scheme for it")
     assert judge(history, night(6, value=2.5), [blessing]).exit_code() == 0
     assert judge(history, night(7, value=2.16), [blessing]).exit_code() == 1  # the old value is no longer normal
+
+
+def test_a_run_without_a_result_is_red_and_named(history):
+    judge(history, night(1))
+    run = replace(night(2), unusable=("sw-2d: failed, the run did not finish: failed, step collapse",), without=("tests",))
+    found = judge(history, run)
+    assert found.exit_code() == 1
+    text = summary.text(run, found)
+    assert "1 runs without a result" in text.splitlines()[0] and "  sw-2d: failed, the run did not finish" in text
+    assert "stages left out\n  tests\n" in text
 
 
 def test_unexpected_verdict_is_red(history):
