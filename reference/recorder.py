@@ -1,7 +1,9 @@
 """What is recorded of the DEM-VOF reference, and how a finished run becomes a record.
 
 A record is reference/results/<scene>/seed<N>/ with series.csv, fields.h5 (a few instants) and record.json: run.json of
-the run, with `case_hash` set to what the reference depends on, the seed and the versions of all parts.
+the run, with `case_hash` set to what the reference depends on, the seed and the versions of all parts. Records that no
+comparison may take for the scene are kept apart: controls/ (gate closed), variants/<variant>/ (another grid, depth or
+floor) and bulk-friction/ (the chute).
 """
 import json
 import shutil
@@ -24,17 +26,39 @@ class Run:
     seed: int
     gate_closed: bool = False
     core_minutes: float = 0.0
+    variant: str = ""  # name of a run with overrides
+    set: tuple = ()  # its overrides, "key=value"
+    chute: bool = False  # bulk friction of the scene's beads instead of the scene
+
+    def __post_init__(self):
+        object.__setattr__(self, "set", tuple(self.set))  # a list in the plan
+        if bool(self.variant) != bool(self.set):
+            raise RecordError(f"{self.scene}: a variant has a name and overrides, both or neither")
 
     @property
     def name(self):
-        return f"{self.scene}/seed{self.seed}" + (" (gate closed)" if self.gate_closed else "")
+        notes = [self.variant] * bool(self.variant) + ["gate closed"] * self.gate_closed + ["chute"] * self.chute
+        return f"{self.scene}/seed{self.seed}" + (f" ({', '.join(notes)})" if notes else "")
+
+    @property
+    def arguments(self):
+        """Of demvof, without places."""
+        closed = ["--gate-closed"] if self.gate_closed else []
+        sets = [word for override in self.set for word in ("--set", override)]
+        return ["chute" if self.chute else "run", f"cases/{self.scene}.toml", "--seed", str(self.seed), *closed, *sets]
 
     @property
     def command(self):
-        return f"demvof run cases/{self.scene}.toml --seed {self.seed}" + (" --gate-closed" if self.gate_closed else "")
+        return " ".join(["demvof", *self.arguments])
 
     def folder(self, results=RESULTS):
-        base = results / "controls" if self.gate_closed else results
+        base = results
+        if self.gate_closed:
+            base = base / "controls"
+        if self.variant:
+            base = base / "variants" / self.variant
+        if self.chute:
+            base = base / "bulk-friction"
         return base / self.scene / f"seed{self.seed}"
 
 
@@ -44,7 +68,7 @@ class RecordError(Exception):
 
 def read_plan(path=ROOT / "reference/plan.toml"):
     runs = [Run(**entry) for entry in tomllib.loads(path.read_text())["run"]]
-    if len({(r.scene, r.seed, r.gate_closed) for r in runs}) != len(runs):
+    if len({r.folder() for r in runs}) != len(runs):
         raise RecordError(f"{path}: a run is listed twice")
     return runs
 
@@ -59,27 +83,40 @@ def select(runs, scenes):
 
 
 def program(build_dir):
-    path = Path(build_dir) / "reference/demvof/demvof"
+    path = Path(build_dir).resolve() / "reference/demvof/demvof"
     if not path.exists():
         raise RecordError(f"{path} is missing; ci/setup-reference installs what it needs, `make reference` builds it")
     return path
 
 
-def current_hashes(demvof, scene):
+def current_hashes(demvof, run):
     """Hash of what the reference depends on, and of the whole case."""
-    result = subprocess.run([demvof, "hash", ROOT / f"cases/{scene}.toml"], capture_output=True, text=True)
+    sets = [word for override in run.set for word in ("--set", override)]
+    result = subprocess.run([demvof, "hash", ROOT / f"cases/{run.scene}.toml", *sets], capture_output=True, text=True)
     if result.returncode:
-        raise RecordError(f"cases/{scene}.toml: {result.stderr.strip()}")
+        raise RecordError(f"cases/{run.scene}.toml: {result.stderr.strip()}")
     return result.stdout.split()[-2:]
 
 
-def run_of(directory):
+def variant_of(scene, sets, plan):
+    """Name of the plan's variant of a scene with these overrides."""
+    named = [run.variant for run in plan if run.scene == scene and sorted(run.set) == sorted(sets)]
+    if not named:
+        raise RecordError(f"reference/plan.toml has no variant of {scene} with {', '.join(sets)}")
+    return named[0]
+
+
+def run_of(directory, plan=()):
     """Which run of which case a run directory of demvof holds: Run, case hash."""
     try:
         facts = json.loads((directory / "run.json").read_text())
         if facts["program"] != "demvof":
             raise RecordError(f"{directory} is a run of {facts['program']}, not of demvof")
-        run = Run(facts["scene"], int(facts["monitors"]["seed"]), "--gate-closed" in facts["command"])
+        words = facts["command"].split()
+        sets = [value for option, value in zip(words, words[1:]) if option == "--set"]
+        variant = variant_of(facts["scene"], sets, plan) if sets else ""
+        run = Run(facts["scene"], int(facts["monitors"]["seed"]), "--gate-closed" in words, variant=variant, set=sets,
+                  chute="chute" in words)
         return run, facts["case_hash"]
     except (OSError, ValueError, KeyError) as error:
         raise RecordError(f"{directory} holds no run of demvof: {error}") from error
@@ -96,12 +133,9 @@ def state(run, case_hash, results=RESULTS):
     return "current" if record.get("case_hash") == case_hash else "stale"
 
 
-def package_versions():
-    versions = {}
-    for package in PACKAGES:
-        found = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True)
-        versions[package] = found.stdout.strip() or "unknown"
-    return versions
+def package_version(package):
+    found = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
 
 
 def kept(names):
@@ -134,13 +168,15 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     facts["command"] = run.command  # as anyone would call it, without this machine's folders
     facts["seed"] = run.seed
     facts["gate_closed"] = run.gate_closed
-    facts["parts"] = package_versions()
+    facts["variant"] = run.variant
+    facts["parts"] = {package: package_version(package) for package in PACKAGES}
     folder = run.folder(results)
     draft = folder.with_name(folder.name + ".part")
     shutil.rmtree(draft, ignore_errors=True)
     draft.mkdir(parents=True)
     shutil.copy(run_directory / "series.csv", draft / "series.csv")
-    slim_fields(run_directory / "fields.h5", draft / "fields.h5")
+    if not run.chute:
+        slim_fields(run_directory / "fields.h5", draft / "fields.h5")
     (draft / "record.json").write_text(json.dumps(facts, indent=2) + "\n")
     shutil.rmtree(folder, ignore_errors=True)
     draft.rename(folder)

@@ -81,7 +81,10 @@ def convert(case, target):
             group["u_c"] = read_field(directory / "U", cells, 3)
             # At time 0 a case often holds p_rgh alone: no pressure yet.
             group["p_c"] = read_field(pressure, cells, 1) if pressure.exists() else np.zeros_like(alpha)
-            for name in ("f_s", "theta", "phi"):
+            # MPPICInterFoam and DPMFoam write the share of the continuous phase.
+            continuous = directory / "alphac"
+            group["f_s"] = 1.0 - read_field(continuous, cells, 1) if continuous.exists() else np.zeros_like(alpha)
+            for name in ("theta", "phi"):
                 group[name] = np.zeros_like(alpha)
             group["u_s"] = np.zeros_like(group["u_c"])
     return len(times)

@@ -14,6 +14,7 @@
 #include "compare/output/write.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/run_record.hpp"
+#include "solver/output/series_file.hpp"
 #include "solver/scene/load_scene.hpp"
 
 namespace {
@@ -85,6 +86,16 @@ int lay_beside(const LayOptions& options, const Paths& paths) {
   return 0;
 }
 
+// A series.csv of fields that are not ours, so that they need to be read only once.
+int extract_series(const LayOptions& options, const Paths& paths) {
+  const Scene scene = load_scene(paths.cases / (options.scene + ".toml"), options.set);
+  const Series series = read_their_fields(options.fields, scene).series;
+  if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
+  SeriesFile file = SeriesFile::create(options.out, series.columns);
+  for (const auto& row : series.rows) file.append(row);
+  return 0;
+}
+
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--checks", options.table, "the table of checks")->capture_default_str();
   command.add_option("--frequency", options.frequency, "rows due at: verify, short, nightly or weekly")
@@ -130,12 +141,20 @@ int main(int argc, char** argv) {
   lay_command->add_option("--cases", options.paths.cases, "case files")->capture_default_str();
   lay_command->add_option("--out", laid.out, "where lay.json goes")->capture_default_str();
 
+  CLI::App* extract = app.add_subcommand("extract", "write the series.csv of a fields.h5 of others");
+  extract->add_option("--scene", laid.scene, "case of the fields, by its name in --cases")->required();
+  extract->add_option("--fields", laid.fields, "their fields.h5")->required()->check(CLI::ExistingFile);
+  extract->add_option("--cases", options.paths.cases, "case files")->capture_default_str();
+  extract->add_option("--set", laid.set, "overrides of the case")->allow_extra_args(false);
+  extract->add_option("--out", laid.out, "the series.csv")->required();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    if (*extract) return extract_series(laid, options.paths);
     if (*lay_command) return lay_beside(laid, options.paths);
     return *plan ? print_plan(options) : check_runs(options);
   } catch (const std::exception& error) {

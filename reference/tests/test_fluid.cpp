@@ -54,6 +54,14 @@ TEST(Fluid, APoolStaysAtRestUnderHydrostaticPressure) {
   EXPECT_NEAR(fluid.boundary_force()[1], weight, 0.01 * weight);
 }
 
+TEST(Fluid, BeforeTheFirstStepThePressureIsHydrostatic) {
+  const FluidSettings s = tank(16, 16);
+  const Fluid fluid(s, filled_to(s, 0.025, 16), std::vector<double>(256, 1.0));
+  const double gas = 1.0 * 9.81 * 0.015, water = 1000.0 * 9.81 * (0.025 - 0.5 * 2.5e-3);
+  EXPECT_NEAR(fluid.view().pressure[0], gas + water, 0.5);
+  EXPECT_NEAR(fluid.view().pressure[15 * 16], 1.0 * 9.81 * 0.5 * 2.5e-3, 0.5);
+}
+
 TEST(Fluid, ADamBreakKeepsItsLiquidAndStaysBounded) {
   const FluidSettings s = tank(32, 16);
   Fluid fluid(s, filled_to(s, 0.03, 10), std::vector<double>(512, 1.0));

@@ -69,6 +69,17 @@ TEST(Column, FrictionOfThePreparationSetsThePacking) {
   EXPECT_NEAR(rough.packing, 0.56, 0.04);
 }
 
+// Friction that the run will not have leaves a looser column, if it is released as prepared.
+TEST(Column, ReleasedAsPreparedItIsLooserThanAtRestUnderTheFrictionOfTheRun) {
+  demvof::ColumnSettings s = small_column();
+  s.preparation_law.bead_friction = 1.0;
+  s.preparation_law.rolling_friction = 0.2;
+  s.final_law.bead_friction = 0.1;
+  const demvof::Column rested = demvof::prepare_column(s);
+  s.final_settling = false;
+  EXPECT_LT(demvof::prepare_column(s).packing, rested.packing - 0.015);
+}
+
 TEST(Column, TheSameSeedGivesTheSameColumn) {
   demvof::ColumnSettings s = small_column();
   s.suspended = true;

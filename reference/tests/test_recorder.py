@@ -15,11 +15,11 @@ import recorder  # noqa: E402
 RUN = recorder.Run("s1", 2)
 
 
-def finished_run(folder, exit_state="finished"):
+def finished_run(folder, exit_state="finished", command="demvof run cases/s1.toml --gate-closed"):
     folder.mkdir()
     (folder / "series.csv").write_text("time [s]\n0\n1\n")
     (folder / "run.json").write_text(json.dumps({"program": "demvof", "scene": "s1", "case_hash": "solver's",
-                                               "command": "demvof run --gate-closed", "monitors": {"seed": 2.0}, "exit": {"state": exit_state, "reason": "at t = 3"}}))
+                                               "command": command, "monitors": {"seed": 2.0}, "exit": {"state": exit_state, "reason": "at t = 3"}}))
     with h5py.File(folder / "fields.h5", "w") as file:
         file.attrs["scene"] = "s1"
         for n in range(9):
@@ -73,6 +73,26 @@ def test_a_run_directory_says_which_run_it_holds(tmp_path):
 def test_control_runs_are_kept_apart(tmp_path):
     control = recorder.Run("s1-loose", 1, gate_closed=True)
     assert control.folder(tmp_path) == tmp_path / "controls/s1-loose/seed1"
+
+
+def test_a_variant_is_kept_apart_and_found_again_by_its_overrides(tmp_path):
+    coarse = recorder.Run("s1", 2, variant="coarse", set=["reference.cell=0.005"])
+    assert coarse.folder(tmp_path) == tmp_path / "variants/coarse/s1/seed2"
+    directory = finished_run(tmp_path / "run", command=coarse.command)
+    assert recorder.run_of(directory, [recorder.Run("s1", 1), coarse]) == (coarse, "solver's")
+    with pytest.raises(recorder.RecordError, match="no variant of s1 with reference.cell"):
+        recorder.run_of(directory, [recorder.Run("s1", 1)])
+    with pytest.raises(recorder.RecordError, match="both or neither"):
+        recorder.Run("s1", 1, variant="nameless")
+
+
+def test_a_chute_has_no_fields_and_its_own_place(tmp_path):
+    chute = recorder.Run("s1", 1, chute=True)
+    directory = finished_run(tmp_path / "run", command=chute.command)
+    (directory / "fields.h5").unlink()
+    folder = recorder.make_record(chute, directory, "abc", tmp_path)
+    assert folder == tmp_path / "bulk-friction/s1/seed1"
+    assert json.loads((folder / "record.json").read_text())["command"].startswith("demvof chute")
 
 
 def test_a_missing_program_is_an_error_that_says_what_to_do(tmp_path):

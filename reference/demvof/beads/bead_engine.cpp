@@ -1,5 +1,6 @@
 #include "reference/demvof/beads/bead_engine.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
@@ -45,7 +46,8 @@ BeadEngine::BeadEngine(const BeadSettings& settings, const BeadState& mobile,
 
   command("atom_style granular");
   command("atom_modify map array");
-  command(fmt::format("boundary f f {}", settings_.periodic_depth ? "p" : "f"));
+  command(fmt::format("boundary {} f {}", settings_.periodic_length ? "p" : "f",
+                      settings_.periodic_depth ? "p" : "f"));
   command("newton off");
   command("communicate single vel yes");
   command("units si");
@@ -120,8 +122,10 @@ void BeadEngine::declare_walls() {
   const auto plane = [&](const char* name, const char* kind, double position) {
     command(fmt::format("fix {} mobile wall/{} primitive type 3 {} {}", name, contact, kind, position));
   };
-  plane("left", "xplane", 0.0);
-  plane("right", "xplane", settings_.tank[0]);
+  if (!settings_.periodic_length) {
+    plane("left", "xplane", 0.0);
+    plane("right", "xplane", settings_.tank[0]);
+  }
   plane("bottom", "yplane", 0.0);
   plane("top", "yplane", settings_.tank[1]);
   if (!settings_.periodic_depth) {
@@ -140,10 +144,11 @@ void BeadEngine::declare_gate() {
   gate_present_ = true;
 }
 
-void BeadEngine::set_gravity(double gravity) {
+void BeadEngine::set_gravity(double gravity, double slope) {
   settings_.gravity = gravity;
-  command(
-      fmt::format("fix gravity mobile gravity {} vector 0 {} 0", std::abs(gravity), gravity < 0.0 ? 1 : -1));
+  const double sign = gravity < 0.0 ? -1.0 : 1.0, angle = slope * std::numbers::pi / 180.0;
+  command(fmt::format("fix gravity mobile gravity {} vector {:.17g} {:.17g} 0", std::abs(gravity),
+                      sign * std::sin(angle), -sign * std::cos(angle)));
   set_up_ = false;
 }
 

@@ -1,7 +1,8 @@
 // The bead side of demvof: LIGGGHTS as a library.
 //
 // Mobile beads move, are pulled by gravity and carry the load of the fluid. Frozen beads only stand in the
-// way: they make a floor rough. The engine's z is periodic or walled; x and y are walled.
+// way: they make a floor rough. The engine's x and z are
+// periodic or walled; y is walled.
 #pragma once
 
 #include <memory>
@@ -38,7 +39,8 @@ class BeadEngine {
 
   void set_contact_law(const ContactLaw& law);  // from now on; rolling friction only if there was some before
   void set_velocities(const std::vector<double>& velocity);
-  void set_gravity(double gravity);
+  // Along -y [m/s2], negative pulls up; a slope [degrees] turns it towards +x, as on a chute.
+  void set_gravity(double gravity, double slope = 0.0);
   void raise_gate(double speed);  // [m/s]
   void remove_gate();
 

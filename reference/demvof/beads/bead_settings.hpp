@@ -21,10 +21,11 @@ struct ContactLaw {
 };
 
 struct BeadSettings {
-  Vector tank{};               // inner size [m]; y is up
-  bool periodic_depth = true;  // z joined to itself; otherwise walls at 0 and tank[2]
-  double diameter = 0.0;       // [m]
-  double density = 0.0;        // [kg/m3]
+  Vector tank{};                 // inner size [m]; y is up
+  bool periodic_depth = true;    // z joined to itself; otherwise walls at 0 and tank[2]
+  bool periodic_length = false;  // x likewise
+  double diameter = 0.0;         // [m]
+  double density = 0.0;          // [kg/m3]
   ContactLaw law;
   double dt = 1e-5;            // [s]
   double gravity = 9.81;       // along -y [m/s2]; negative pulls up

@@ -20,10 +20,11 @@ void check(const std::ofstream& file, const std::string& path) {
 WorkBox work_box(const BeadSettings& s) {
   const double margin = 2.0 * s.diameter;
   WorkBox box;
-  box.lower = {-margin, -margin, s.periodic_depth ? 0.0 : -margin};
+  const double along = s.periodic_length ? 0.0 : margin, across = s.periodic_depth ? 0.0 : margin;
+  box.lower = {-along, -margin, -across};
   // The gate rises by its own height before it is taken away.
   const double height = std::max(s.tank[1], s.gate ? 2.5 * s.gate_height : 0.0);
-  box.upper = {s.tank[0] + margin, height + margin, s.periodic_depth ? s.tank[2] : s.tank[2] + margin};
+  box.upper = {s.tank[0] + along, height + margin, s.tank[2] + across};
   return box;
 }
 

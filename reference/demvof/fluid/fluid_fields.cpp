@@ -82,6 +82,19 @@ dictionary control() {
   return dict;
 }
 
+// From the top down, face by face, as the pressure equation balances it: what is written before the first
+// step is then a pressure, and the first step does not ring.
+void start_from_hydrostatic_pressure(Fluid::Fields& f) {
+  const label nx = f.settings.cells[0], ny = f.settings.cells[1], nz = f.settings.cells[2];
+  for (label k = 0; k < nz; ++k)
+    for (label j = ny - 2; j >= 0; --j)
+      for (label i = 0; i < nx; ++i) {
+        const label below = (k * ny + j) * nx + i, above = below + nx;
+        const scalar face = 0.5 * (f.gh[below] + f.gh[above]);
+        f.p_rgh[below] = f.p_rgh[above] + face * (f.rho[above] - f.rho[below]);
+      }
+}
+
 }  // namespace
 
 Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
@@ -117,7 +130,7 @@ Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
   rho = alpha * dimensionedScalar("l", dimDensity, s.liquid_density) +
         (1.0 - alpha) * dimensionedScalar("g", dimDensity, s.gas_density);
   rho.correctBoundaryConditions();
-  // Start from the hydrostatic pressure of the liquid as it stands, so that the first step does not ring.
+  start_from_hydrostatic_pressure(*this);
   eps.oldTime();
   alpha.oldTime();
   U.oldTime();

@@ -102,8 +102,10 @@ Column prepare_column(const ColumnSettings& s) {
     BeadEngine engine(engine_settings, gas, floor);
     engine.set_gravity(s.buoyant_gravity);
     settle(engine, nearly_still);
-    engine.set_contact_law(s.final_law);
-    settle(engine, quite_still);
+    if (s.final_settling) {
+      engine.set_contact_law(s.final_law);
+      settle(engine, quite_still);
+    }
     column.residual_speed = rms_speed(engine.state());
     settled = engine.state().position;
   }

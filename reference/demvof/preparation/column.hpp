@@ -2,8 +2,8 @@
 //
 // A settled column: beads dispersed at random fall under buoyant gravity, slowed by a drag that stands for
 // the liquid, with the friction of the preparation, which sets the packing; then they come to rest once more
-// with the friction of the run, and what stands above the wanted height is cut off. A suspended column (below
-// about 0.55 no pile is at rest): beads at random without contact and without velocity.
+// with the friction of the run (if wanted), and what stands above the wanted height is cut off. A suspended
+// column (below about 0.55 no pile is at rest): beads at random without contact and without velocity.
 #pragma once
 
 #include <string>
@@ -23,6 +23,8 @@ struct ColumnSettings {
   double buoyant_gravity = 0.0;  // [m/s2], > 0
   ContactLaw preparation_law;    // sets the packing
   ContactLaw final_law;          // the run's
+  bool final_settling =
+      true;  // at rest under it; else released as prepared, at the packing of the preparation
   double dt = 1e-5;
   std::vector<double> floor;  // frozen beads under the column, absolute positions; may be empty
   unsigned seed = 1;

@@ -1,4 +1,4 @@
-// The program demvof: run and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
+// The program demvof: run, chute and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <mpi.h>
 
+#include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
@@ -28,6 +29,13 @@ void add_case(CLI::App& command, Arguments& arguments) {
   command.add_option("--set", arguments.overrides, "Replace a key of the case; may be given again")
       ->type_name("TABLE.KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_places(CLI::App& command, Arguments& arguments) {
+  command.add_option("--out", arguments.record.out, "Run directory")->type_name("DIR");
+  command.add_option("--scratch", arguments.record.scratch, "Folder for intermediate files")
+      ->type_name("DIR");
+  command.add_option("--seed", arguments.record.seed, "Seed of the beads and the floor");
 }
 
 int guarded(int (*action)(const Arguments&), const Arguments& arguments) {
@@ -50,6 +58,19 @@ int run(const Arguments& arguments) {
   return demvof::record_scene(scene, options);
 }
 
+int chute(const Arguments& arguments) {
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  if (!scene.reference) {
+    throw granvof::CaseError(
+        fmt::format("{}: no [reference] table: its beads are not known", arguments.case_file));
+  }
+  demvof::RecordOptions options = arguments.record;
+  if (options.out.empty())
+    options.out = fmt::format("out/reference/bulk-friction/{}/seed{}", scene.name, options.seed);
+  if (options.scratch.empty()) options.scratch = "out/reference/scratch";
+  return demvof::record_chute(scene, options);
+}
+
 int hash(const Arguments& arguments) {
   const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
   fmt::print("{} {}\n", scene.reference_hash, scene.hash);
@@ -66,12 +87,14 @@ int main(int argc, char** argv) {
 
   CLI::App* run_command = app.add_subcommand("run", "Prepare, hold, release and run one scene with one seed");
   add_case(*run_command, arguments);
-  run_command->add_option("--out", arguments.record.out, "Run directory")->type_name("DIR");
-  run_command->add_option("--scratch", arguments.record.scratch, "Folder for intermediate files")
-      ->type_name("DIR");
-  run_command->add_option("--seed", arguments.record.seed, "Seed of the column and the floor");
+  add_places(*run_command, arguments);
   run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
   run_command->add_flag("--progress", arguments.record.progress, "Say how far the run is");
+
+  CLI::App* chute_command =
+      app.add_subcommand("chute", "Measure the bulk friction mu(I) of a case's beads on a dry chute");
+  add_case(*chute_command, arguments);
+  add_places(*chute_command, arguments);
 
   CLI::App* hash_command =
       app.add_subcommand("hash", "Print two hashes: of what the reference depends on, and of the case");
@@ -86,7 +109,7 @@ int main(int argc, char** argv) {
     return bad_input;
   }
   MPI_Init(&argc, &argv);
-  const int code = guarded(*run_command ? run : hash, arguments);
+  const int code = guarded(*run_command ? run : *chute_command ? chute : hash, arguments);
   MPI_Finalize();
   return code;
 }

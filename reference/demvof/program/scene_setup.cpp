@@ -149,6 +149,8 @@ ColumnSettings column_settings(const Scene& scene, unsigned seed, const std::vec
   c.final_law = c.preparation_law = run_law(scene);
   c.preparation_law.bead_friction = r.preparation_friction;
   c.preparation_law.rolling_friction = r.preparation_rolling_friction;
+  // A column that is not held is wanted as it was prepared: the packing that its friction cannot carry.
+  c.final_settling = !scene.gate || r.hold > 0.0;
   c.dt = r.dt;
   c.floor = floor;
   c.seed = seed;

@@ -1,0 +1,76 @@
+#include "reference/demvof/program/record_chute.hpp"
+
+#include <chrono>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "reference/demvof/bulk_friction/chute.hpp"
+#include "reference/demvof/program/scene_setup.hpp"
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/run_record.hpp"
+
+namespace demvof {
+
+namespace {
+
+// From fast flow to below the angle of repose; closer together where the flow stops [degrees].
+const std::vector<double> slopes{26, 25,   24, 23,   22, 21,   20.5, 20, 19.5,
+                                 19, 18.5, 18, 17.5, 17, 16.5, 16,   15, 14};
+
+std::string series_text(const ChuteResult& result) {
+  std::string text =
+      "time [s],slope [deg],inertial_number [-],friction [-],solid_fraction [-],mean_speed [m/s]\n";
+  for (const ChutePoint& p : result.points) {
+    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", p.time, p.slope,
+                        p.friction.inertial_number, p.friction.friction, p.solid_fraction, p.mean_speed);
+  }
+  return text;
+}
+
+}  // namespace
+
+int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
+  const auto clock = std::chrono::steady_clock::now();
+  const std::string date = granvof::iso_date_now();
+  ChuteSettings chute;
+  const BeadSettings beads = bead_settings(scene, options.scratch.string());
+  chute.diameter = beads.diameter;
+  chute.density = beads.density;
+  chute.gravity = beads.gravity;
+  chute.dt = beads.dt;
+  chute.law = beads.law;
+  chute.slopes = slopes;
+  chute.seed = options.seed;
+  chute.scratch_folder = beads.scratch_folder;
+  const ChuteResult result = run_chute(chute);
+
+  std::vector<FrictionPoint> points;
+  points.reserve(result.points.size());
+  for (const ChutePoint& point : result.points) points.push_back(point.friction);
+  const FrictionFit fit = fit_friction(points);
+  granvof::RunProgress progress;
+  progress.simulated_time = result.duration;
+  progress.core_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  progress.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  progress.monitors = {{"seed", options.seed},    {"beads", static_cast<double>(result.beads)},
+                       {"mu_s", fit.law.at_rest}, {"mu_s_band", fit.band.at_rest},
+                       {"mu_2", fit.law.limit},   {"mu_2_band", fit.band.limit},
+                       {"I_0", fit.law.scale},    {"I_0_band", fit.band.scale},
+                       {"fit_rms", fit.rms}};
+  if (result.lowest_flow) progress.monitors["lowest_flow_deg"] = *result.lowest_flow;
+  if (result.stopped_at) progress.monitors["stopped_at_deg"] = *result.stopped_at;
+
+  std::filesystem::create_directories(options.out);
+  granvof::write_file_atomically(options.out / "series.csv", series_text(result));
+  const granvof::RunRecord record{{"demvof", options.command, 1, 1}, date, {}};
+  granvof::write_file_atomically(
+      options.out / "run.json",
+      granvof::run_record_text(scene, record, progress, {granvof::ExitState::finished, ""}));
+  fmt::print("mu_s {:.4f} +- {:.4f}, mu_2 {:.4f} +- {:.4f}, I_0 {:.4f} +- {:.4f}; {} points, rms {:.4f}\n",
+             fit.law.at_rest, fit.band.at_rest, fit.law.limit, fit.band.limit, fit.law.scale, fit.band.scale,
+             points.size(), fit.rms);
+  return 0;
+}
+
+}  // namespace demvof

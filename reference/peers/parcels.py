@@ -1,0 +1,114 @@
+"""The case of MPPICInterFoam: interFoam's, with the bed of a scene as parcels of many beads each.
+
+The models are those of OpenFOAM's own example (multiphase/MPPICInterFoam/twoPhasePachuka) but for the drag, which is
+Ergun's below and Wen and Yu's above a void fraction of 0.8 as in the scene, and the stress, whose packing is the scene's
+greatest. The program has no friction between grains and no gate: the column is let go at once.
+"""
+import math
+import random
+
+from . import openfoam_case
+from .openfoam_case import CaseError, foam_file, vector
+
+STRESS = {"pSolid": 10.0, "beta": 2.0, "eps": 1e-2}  # Harris & Crighton; those of the example are 5, 2 and 1e-2
+
+
+def positions(box, count, flat, seed=1):
+    """Parcels at random, one in each of `count` equal bricks, so that the bed is even."""
+    extent = [b - a for a, b in zip(*box)]
+    directions = 2 if flat else 3
+    edge = (math.prod(extent[:directions]) / count) ** (1.0 / directions)
+    numbers = [max(1, round(length / edge)) for length in extent[:directions]] + [1] * (3 - directions)
+    draw = random.Random(seed)
+    found = []
+    for k in range(numbers[2]):
+        for j in range(numbers[1]):
+            for i in range(numbers[0]):
+                shares = [(n + draw.random()) / number for n, number in zip((i, j, k), numbers)]
+                if flat:
+                    shares[2] = 0.5
+                found.append([low + share * length for low, share, length in zip(box[0], shares, extent)])
+    return found
+
+
+def bed_box(tank):
+    bed = tank.scene["bed"]
+    low = [bed.get("x", 0.0), bed.get("y", 0.0), bed.get("z", 0.0)]
+    width = tank.size[2] if tank.flat else bed.get("width", tank.size[2])
+    return low, [low[0] + bed["length"], low[1] + bed["height"], low[2] + width]
+
+
+def write_case(directory, tank, count):
+    """Gives back what the record states of the parcels."""
+    scene = tank.scene
+    if "bed" not in scene:
+        raise CaseError(f"{tank.name}: there are no grains")
+    openfoam_case.write_mesh(directory, tank)
+    openfoam_case.write_fields(directory, tank)
+    openfoam_case.write_properties(directory, tank)
+    openfoam_case.write_control(directory, tank, "MPPICInterFoam", 0.3)
+    box = bed_box(tank)
+    parcels = positions(box, count, tank.flat)
+    solid, d = scene["solid"], scene["solid"]["diameter"]
+    volume = scene["bed"]["solid_fraction"] * math.prod(b - a for a, b in zip(*box))
+    beads = volume / (math.pi / 6 * d ** 3)
+    packed = scene["contact"]["solid_fraction_max"]
+    foam_file(directory, "constant/parcelPositions", "vectorField",
+              "(\n" + "\n".join(vector(p) for p in parcels) + "\n)\n")
+    stress = " ".join(f"{name} {value};" for name, value in STRESS.items())
+    time_scale = f"type %s; alphaPacked {packed}; e {solid['restitution']};"
+    walls = "".join(
+        f"            {side} {{ type rebound; e {solid['restitution']}; mu {solid['friction']}; }}\n"
+        for side in openfoam_case.SIDES if tank.side(side) in ("no-slip", "slip"))
+    outlet = "".join(f"            {side} {{ type escape; }}\n" for side in openfoam_case.SIDES if tank.side(side) == "open")
+    foam_file(directory, "constant/kinematicCloudProperties", "dictionary", f"""solution
+{{
+    active true; coupled true; transient yes; cellValueSourceCorrection no; maxCo 0.3;
+    interpolationSchemes {{ rho cell; U cellPoint; mu cell; gradAlpha cellPoint; }}
+    averagingMethod basic;
+    integrationSchemes {{ U Euler; }}
+    sourceTerms {{ schemes {{ U semiImplicit 0.8; }} }}
+}}
+constantProperties {{ rho0 {solid['density']}; alphaMax {packed}; }}
+subModels
+{{
+    particleForces {{ ErgunWenYuDrag {{ alphac alphac; }} gravity; }}
+    injectionModels
+    {{
+        bed
+        {{
+            type manualInjection; massTotal {volume * solid['density']:.10g}; SOI 0;
+            parcelBasisType fixed; nParticle {beads / len(parcels):.10g};
+            positionsFile "parcelPositions"; U0 (0 0 0);
+            sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {d}; }} }}
+        }}
+    }}
+    dispersionModel none;
+    patchInteractionModel localInteraction;
+    localInteractionCoeffs
+    {{
+        patches
+        (
+{walls}{outlet}        );
+    }}
+    heatTransferModel none; surfaceFilmModel none; stochasticCollisionModel none; radiation off;
+    packingModel implicit;
+    implicitCoeffs
+    {{
+        alphaMin 0.001; rhoMin 1.0; applyGravity false; applyLimiting false;
+        particleStressModel {{ type HarrisCrighton; alphaPacked {packed}; {stress} }}
+    }}
+    dampingModel relaxation;
+    relaxationCoeffs {{ timeScaleModel {{ {time_scale % 'nonEquilibrium'} }} }}
+    isotropyModel stochastic;
+    stochasticCoeffs {{ timeScaleModel {{ {time_scale % 'isotropic'} }} }}
+}}
+cloudFunctions {{}}
+""")
+    foam_file(directory, "system/fvSchemes", "dictionary", openfoam_case.SCHEMES % (
+        "    div(rhoPhi,U) Gauss upwind;\n    div((((alphac*rho)*nuEff)*dev2(T(grad(U))))) Gauss linear;\n"
+        "    div(phiGByA,kinematicCloud:alpha) Gauss linear;"))
+    foam_file(directory, "system/fvSolution", "dictionary", openfoam_case.SOLUTION % (
+        "    kinematicCloud:alpha { solver PCG; preconditioner DIC; tolerance 1e-6; relTol 0.1; }\n"))
+    return {"parcels": len(parcels), "beads_per_parcel": beads / len(parcels), "release": "instant", "friction": "none",
+            "stress": {"alphaPacked": packed, **STRESS}}
