@@ -3,14 +3,38 @@
 The models are those of OpenFOAM's own example (multiphase/MPPICInterFoam/twoPhasePachuka) but for the drag, which is
 Ergun's below and Wen and Yu's above a void fraction of 0.8 as in the scene, and the stress, whose packing is the scene's
 greatest. The program has no friction between grains and no gate: the column is let go at once.
+
+It can only inject parcels during a step, which would push as much fluid out of their way within that step. They are
+therefore injected in a step of its own, and the run starts from the parcels that this step leaves behind.
 """
 import math
 import random
+import shutil
 
 from . import openfoam_case
 from .openfoam_case import CaseError, foam_file, vector
 
 STRESS = {"pSolid": 10.0, "beta": 2.0, "eps": 1e-2}  # Harris & Crighton; those of the example are 5, 2 and 1e-2
+
+
+CLOUD = "constant/kinematicCloudProperties"
+FILLING_STEP = 1e-9  # [s]
+
+
+def fill(directory, run_program):
+    """Leaves the parcels in the case's time 0; `run_program(directory)` runs MPPICInterFoam, after blockMesh."""
+    filling = directory / "filling"
+    shutil.copytree(directory / "0", filling / "0")
+    shutil.copytree(directory / "constant", filling / "constant")
+    shutil.copytree(directory / "system", filling / "system")
+    shutil.move(filling / (CLOUD + ".filling"), filling / CLOUD)
+    foam_file(filling, "system/controlDict", "dictionary", f"""application MPPICInterFoam;
+startFrom startTime; startTime 0; stopAt endTime; endTime {FILLING_STEP}; deltaT {FILLING_STEP};
+writeControl timeStep; writeInterval 1; writeFormat ascii; writePrecision 12; timePrecision 12; runTimeModifiable no;
+maxCo 1e9; maxAlphaCo 1e9; maxDeltaT {FILLING_STEP}; adjustTimeStep no;
+""")
+    run_program(filling)
+    shutil.copytree(filling / f"{FILLING_STEP:g}" / "lagrangian", directory / "0/lagrangian")
 
 
 def positions(box, count, flat, seed=1):
@@ -61,7 +85,16 @@ def write_case(directory, tank, count):
         f"            {side} {{ type rebound; e {solid['restitution']}; mu {solid['friction']}; }}\n"
         for side in openfoam_case.SIDES if tank.side(side) in ("no-slip", "slip"))
     outlet = "".join(f"            {side} {{ type escape; }}\n" for side in openfoam_case.SIDES if tank.side(side) == "open")
-    foam_file(directory, "constant/kinematicCloudProperties", "dictionary", f"""solution
+    injection = f"""
+        bed
+        {{
+            type manualInjection; massTotal {volume * solid['density']:.10g}; SOI 0;
+            parcelBasisType fixed; nParticle {beads / len(parcels):.10g};
+            positionsFile "parcelPositions"; U0 (0 0 0);
+            sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {d}; }} }}
+        }}
+"""
+    cloud = f"""solution
 {{
     active true; coupled true; transient yes; cellValueSourceCorrection no; maxCo 0.3;
     interpolationSchemes {{ rho cell; U cellPoint; mu cell; gradAlpha cellPoint; }}
@@ -73,16 +106,7 @@ constantProperties {{ rho0 {solid['density']}; alphaMax {packed}; }}
 subModels
 {{
     particleForces {{ ErgunWenYuDrag {{ alphac alphac; }} gravity; }}
-    injectionModels
-    {{
-        bed
-        {{
-            type manualInjection; massTotal {volume * solid['density']:.10g}; SOI 0;
-            parcelBasisType fixed; nParticle {beads / len(parcels):.10g};
-            positionsFile "parcelPositions"; U0 (0 0 0);
-            sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {d}; }} }}
-        }}
-    }}
+    injectionModels {{ INJECTION }}
     dispersionModel none;
     patchInteractionModel localInteraction;
     localInteractionCoeffs
@@ -104,7 +128,9 @@ subModels
     stochasticCoeffs {{ timeScaleModel {{ {time_scale % 'isotropic'} }} }}
 }}
 cloudFunctions {{}}
-""")
+"""
+    foam_file(directory, CLOUD + ".filling", "dictionary", cloud.replace("INJECTION", injection))
+    foam_file(directory, CLOUD, "dictionary", cloud.replace("INJECTION", ""))
     foam_file(directory, "system/fvSchemes", "dictionary", openfoam_case.SCHEMES % (
         "    div(rhoPhi,U) Gauss upwind;\n    div((((alphac*rho)*nuEff)*dev2(T(grad(U))))) Gauss linear;\n"
         "    div(phiGByA,kinematicCloud:alpha) Gauss linear;"))

@@ -80,6 +80,23 @@ TEST(Column, ReleasedAsPreparedItIsLooserThanAtRestUnderTheFrictionOfTheRun) {
   EXPECT_LT(demvof::prepare_column(s).packing, rested.packing - 0.015);
 }
 
+// Frozen beads of the floor just beyond the column's front reach under it.
+TEST(Column, StandsClearOfFloorBeadsThatReachUnderIt) {
+  demvof::ColumnSettings s = small_column();
+  for (int n = 0; n < 4; ++n) s.floor.insert(s.floor.end(), {0.012 + 0.1 * d, 0.1 * d, (n + 0.5) * d});
+  const demvof::Column column = demvof::prepare_column(s);
+  double deepest = 0.0;
+  for (std::size_t f = 0; f < s.floor.size(); f += 3) {
+    for (std::size_t b = 0; b < column.position.size(); b += 3) {
+      double dz = column.position[b + 2] - s.floor[f + 2];
+      dz -= 0.004 * std::round(dz / 0.004);
+      deepest = std::max(deepest, d - std::hypot(column.position[b] - s.floor[f],
+                                                 column.position[b + 1] - s.floor[f + 1], dz));
+    }
+  }
+  EXPECT_LT(deepest, 0.05 * d);
+}
+
 TEST(Column, TheSameSeedGivesTheSameColumn) {
   demvof::ColumnSettings s = small_column();
   s.suspended = true;
