@@ -158,6 +158,8 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
     LoadedRun loaded = load_run(paths.runs / plan.id, plan.id, scene);
     evaluation.runs.push_back({plan, loaded.state, loaded.reason, loaded.facts});
     if (loaded.run) evaluation.usable.emplace(plan.id, std::move(*loaded.run));
+    for (const LoadedRun& peer : load_peers(paths.records, plan.case_name, scene))
+      if (peer.run) evaluation.peers[plan.id].push_back(*peer.run);
   }
   const auto checks = due_checks(table, frequency);
   std::map<std::string, std::vector<LoadedRun>> records;

@@ -41,6 +41,7 @@ struct Evaluation {
   std::vector<Result> results;
   std::map<std::string, Run> usable;                // the runs that could be read, by id
   std::map<std::string, std::vector<Run>> records;  // recorded variants that could be read, by record
+  std::map<std::string, std::vector<Run>> peers;    // stock programs' runs of the same case, by run
 
   int unexpected() const;
 };

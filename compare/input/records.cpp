@@ -45,4 +45,20 @@ std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::s
   return loaded;
 }
 
+std::vector<LoadedRun> load_peers(const std::filesystem::path& records, std::string_view case_name,
+                                  const Scene& scene) {
+  std::vector<std::filesystem::path> programs;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(records / "peers", missing))
+    if (std::filesystem::exists(entry.path() / case_name / "record.json")) programs.push_back(entry.path());
+  std::sort(programs.begin(), programs.end());
+  std::vector<LoadedRun> loaded;
+  loaded.reserve(programs.size());
+  for (const auto& program : programs) {
+    loaded.push_back(load_record(program / case_name, scene));
+    if (loaded.back().run) loaded.back().run->id = program.filename().string();
+  }
+  return loaded;
+}
+
 }  // namespace granvof::compare

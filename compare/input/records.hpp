@@ -1,4 +1,5 @@
-// Recorded DEM-VOF runs, reference/results/<scene>/<variant>/ (series.csv, fields.h5, record.json).
+// Recorded runs of the reference and of stock OpenFOAM programs, each with series.csv, fields.h5 and
+// record.json: reference/results/<scene>/<variant>/ and reference/results/peers/<program>/<scene>/.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +15,9 @@ namespace granvof::compare {
 // finite.
 std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::string_view name,
                                     const Scene& scene);
+
+// What stock programs made of a case, in the order of their names; the run's id is the program's name.
+std::vector<LoadedRun> load_peers(const std::filesystem::path& records, std::string_view case_name,
+                                  const Scene& scene);
 
 }  // namespace granvof::compare

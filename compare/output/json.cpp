@@ -81,8 +81,8 @@ Json json_curves(const Run& run) {
     const auto mean = time_mean(clip(centre, {0.5 * run.scene.times.end, run.scene.times.end}));
     if (mean) add((std::string(column) + "_deviation").c_str(), shifted(centre, -*mean));
   }
-  for (const char* column :
-       {"front_dense", "y_c", "y_solid_mean", "interface_height", "bed_height_equivalent"})
+  for (const char* column : {"front_dense", "y_c", "y_solid_mean", "interface_height",
+                             "bed_height_equivalent", "liquid_front", "liquid_height_left"})
     add(column, run.curve(column));
   if (!run.scene.bed) add("scaled_liquid_front", scaled_liquid_front(run));
   return curves;
@@ -136,7 +136,7 @@ std::string curves_json(const Evaluation& evaluation) {
                 {"curves", json_curves(run)},
                 {"power_law", json_power_law(run)}};
   };
-  Json json{{"runs", Json::object()}, {"records", Json::object()}};
+  Json json{{"runs", Json::object()}, {"records", Json::object()}, {"peers", Json::object()}};
   for (const auto& [id, run] : evaluation.usable) json["runs"][id] = json_entry(run);
   for (const auto& [name, variants] : evaluation.records)
     for (const Run& run : variants) json["records"][name][run.id] = json_entry(run);
@@ -146,6 +146,8 @@ std::string curves_json(const Evaluation& evaluation) {
         result.check.parameters.level && run != evaluation.usable.end())
       json["runs"][run->first]["curves"][fmt::format("solid_level_{:g}", *result.check.parameters.level)] =
           json_curve(solid_level_curve(run->second, *result.check.parameters.level));
+  for (const auto& [id, programs] : evaluation.peers)
+    for (const Run& run : programs) json["peers"][id][run.id] = json_entry(run);
   return json.dump() + "\n";
 }
 

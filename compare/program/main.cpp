@@ -86,13 +86,15 @@ int lay_beside(const LayOptions& options, const Paths& paths) {
   return 0;
 }
 
-// A series.csv of fields that are not ours, so that they need to be read only once.
+// A series.csv of fields that are not ours, so that they need to be read only once. Prints the hash of what
+// they are a run of: a record keeps it, and goes stale with it.
 int extract_series(const LayOptions& options, const Paths& paths) {
   const Scene scene = load_scene(paths.cases / (options.scene + ".toml"), options.set);
   const Series series = read_their_fields(options.fields, scene).series;
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   SeriesFile file = SeriesFile::create(options.out, series.columns);
   for (const auto& row : series.rows) file.append(row);
+  fmt::print("{}\n", scene.reference_hash);
   return 0;
 }
 

@@ -1,5 +1,5 @@
 """How one curve of each kind is drawn, the same in all figures: our runs as solid lines, DEM-VOF records dashed in the
-same colour with their band, published series as open marks, theory in black."""
+same colour with their band, stock programs dotted, published series as open marks, theory in black."""
 
 import numpy as np
 
@@ -41,6 +41,14 @@ def draw_records(axis, results, scene, curve, colour, label, scale=1.0, breaks_a
 
 def band_of(seeds):
     return "one seed, no band" if seeds == 1 else f"mean and range of {seeds} seeds"
+
+
+def draw_peers(axis, results, run, curve, scale=1.0):
+    """The same case by stock programs; False where there is no record."""
+    found = {program: drawn for program, entry in results.peers.get(run, {}).items() if (drawn := arrays(entry, curve))}
+    for program, (x, y) in found.items():
+        axis.plot(x, scale * y, color=style.PEER, linestyle=":", linewidth=1.4, label=program)
+    return bool(found)
 
 
 def draw_published(axis, results, file, column, colour, label, scale=1.0):

@@ -3,11 +3,11 @@ defines a metric. Each function gives back the names of the plots it wrote, none
 
 from report.collapse import base_pressure_plot, floating_run_out_plot, run_out_plot, viscous_plot
 from report.floating import centre_plot, floating_plot
-from report.parts import dam_break_plot, sedimentation_plot
+from report.parts import dam_break_plot, sedimentation_plot, sloshing_plot
 from report.snapshots import snapshot_plot
 
 PLOTS = (run_out_plot, base_pressure_plot, floating_run_out_plot, centre_plot, floating_plot, dam_break_plot,
-         sedimentation_plot, viscous_plot)
+         sloshing_plot, sedimentation_plot, viscous_plot)
 
 # Plot name -> what it shows; the page prints these beneath the plots.
 CAPTIONS = {
@@ -19,6 +19,7 @@ CAPTIONS = {
                      "the cells with f_s > 0.95 f_s,min, eq (27).",
     "floating-theory": "Immersed share and period against theory (paper, Fig. 12).",
     "dam-break": "Front of a collapsing water column without grains.",
+    "sloshing": "Sloshing without grains from a step of the surface.",
     "sedimentation": "Fronts of a settling suspension, where f_s passes 0.25 and 0.55.",
     "viscous-collapse": "Collapse in a viscous liquid: front and excess pore pressure at the base. The model has no viscous "
                         "dilatancy: its sign is what can be compared, not its time scale.",

@@ -1,7 +1,7 @@
 """Figures of single parts of the model against published series."""
 
 from report import style
-from report.drawing import draw_published, draw_run, finish, runs_with
+from report.drawing import draw_peers, draw_published, draw_run, finish, runs_with
 from report.style import plt
 
 
@@ -11,9 +11,20 @@ def dam_break_plot(results, directory):
         return []
     figure, axis = plt.subplots(figsize=(5.6, 3.8))
     draw_run(axis, results, "dam-break", "scaled_liquid_front", style.BLUE, "continuum")
+    draw_peers(axis, results, "dam-break", "scaled_liquid_front")
     draw_published(axis, results, "martin_moyce_1952.tsv", "delta", style.BLACK, "Martin & Moyce (1952)")
     return finish(figure, axis, r"$\tau = t \sqrt{2 g / a}$ [-]", r"front $\delta = x / a$ [-]", results, ["dam-break"], directory,
                   "dam-break")
+
+
+def sloshing_plot(results, directory):
+    """Level at the wall of a tank of water without grains, beside stock programs."""
+    if not runs_with(results, ["sloshing"], "liquid_height_left"):
+        return []
+    figure, axis = plt.subplots(figsize=(5.6, 3.8))
+    draw_run(axis, results, "sloshing", "liquid_height_left", style.BLUE, "continuum", scale=1e3)
+    draw_peers(axis, results, "sloshing", "liquid_height_left", scale=1e3)
+    return finish(figure, axis, "t [s]", "level at x = 0 [mm]", results, ["sloshing"], directory, "sloshing")
 
 
 def sedimentation_plot(results, directory):

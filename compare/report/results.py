@@ -19,6 +19,7 @@ class Results:
     previous_date: str = ""
     curves: dict = field(default_factory=dict)  # id -> {"scene", "directory", "curves"}
     records: dict = field(default_factory=dict)  # scene -> variant -> the same
+    peers: dict = field(default_factory=dict)  # run -> stock program -> the same
     cases: Path = Path("cases")  # directory of the case files, with published/
 
     def row(self, scene, metric):
@@ -55,7 +56,7 @@ def load(directory, cases=Path("cases")):
                      {run["id"]: run for run in results["runs"]})
     loaded.cases = cases
     curves = json.loads((directory / "curves.json").read_text())
-    loaded.curves, loaded.records = curves["runs"], curves["records"]
+    loaded.curves, loaded.records, loaded.peers = curves["runs"], curves["records"], curves.get("peers", {})
     before = directory / "results.previous.json"
     if before.exists():
         previous = json.loads(before.read_text())

@@ -15,6 +15,7 @@ MARKERS = ["o", "s", "^", "D", "v", "P"]
 LINES = ["-", "--", "-.", ":"]
 THEORY = {"color": BLACK, "linestyle": "--", "linewidth": 1.0}
 DEM = RED
+PEER = PURPLE
 
 plt.rcParams.update({
     "figure.dpi": 100, "savefig.dpi": 150, "figure.constrained_layout.use": True,

@@ -112,6 +112,27 @@ TEST(Coupling, MomentumOfBeadsFluidAndWallsIsBalanced) {
   EXPECT_NEAR(change, walls, 0.01 * given);
 }
 
+// Beads at rest beside a closed gate: nothing moves as the first step begins.
+TEST(Coupling, AGateThatIsClosedAtTheStartGivesNoShock) {
+  TankSetup s = tank(16, 8, 2.5e-3, 4e-3, FluidSide::open);
+  s.fluid.gravity = s.beads.gravity = 0.0;
+  std::mt19937 random(1);
+  BeadState beads;
+  const double volume = std::numbers::pi / 6.0 * d * d * d;
+  const auto count = static_cast<std::size_t>(0.5 * 0.02 * 0.01 * 4e-3 / volume);
+  beads.position = demvof::disperse_beads(count, {0, 0, 0}, {0.02, 0.01, 4e-3}, true, d, random);
+  const auto fastest = [&](std::optional<int> closed_gate) {
+    demvof::CouplingSettings coupling;
+    coupling.closed_gate = closed_gate;
+    CoupledRun run(coupling, s.beads, beads, {}, s.fluid, std::vector<double>(s.cells(), 1.0));
+    run.set_gate_edge(8, 0.0);
+    run.step(2e-4);
+    return run.fluid().largest_speed();
+  };
+  EXPECT_LT(fastest(8), 0.01);
+  EXPECT_GT(fastest(std::nullopt), 0.05);  // what the setting is for
+}
+
 // Beads at a solid fraction of about 0.2 in a closed box: their speed relative to the water is that of (8) at
 // this fraction, and the return flow makes the volume flux zero.
 TEST(Coupling, HinderedSettling) {

@@ -27,6 +27,10 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const BeadSettings& bea
                        const std::vector<double>& alpha)
     : settings_(settings), fluid_settings_(fluid), mapping_(fluid.cells, fluid.spacing) {
   beads_ = std::make_unique<BeadEngine>(beads, mobile, frozen_positions);
+  if (settings_.closed_gate) {
+    mapping_.set_gate(*settings_.closed_gate,
+                      std::vector<double>(static_cast<std::size_t>(fluid.cells[1]), 1.0));
+  }
   mapping_.update(beads_->state().position);
   deposit_solid_fraction();
   fluid_ = std::make_unique<Fluid>(fluid, alpha, void_fraction(solid_fraction_));

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "reference/demvof/beads/bead_engine.hpp"
@@ -24,6 +25,9 @@ struct CouplingSettings {
   // step. Needed where (f_s / rho_s) / (f_c / rho_c) exceeds about 1: beads not much heavier than the liquid.
   // What the prediction missed is handed over in the next step.
   bool predict_pressure = false;
+  // Face x = closed_gate * spacing on which a gate stands closed at the start. Set later it would change the
+  // mapping of the beads beside it at once: a source of volume that blows column and water apart.
+  std::optional<int> closed_gate;
 };
 
 class CoupledRun {

@@ -37,13 +37,18 @@ std::vector<granvof::Column> monitor_columns() {
       {"liquid_volume_change", "-", "relative change of the liquid volume since the start"}};
 }
 
+// The face of the fluid cells on which the gate stands.
+int gate_face(const Scene& scene) {
+  return static_cast<int>(std::lround(scene.gate->position / scene.grid.spacing[0]));
+}
+
 // Moves the gate for both sides.
 class GateKeeper {
  public:
   GateKeeper(CoupledRun& run, const Scene& scene, bool stays)
       : run_(run), scene_(scene), present_(scene.gate.has_value()), stays_(stays) {
     if (!present_) return;
-    face_ = static_cast<int>(std::lround(scene.gate->position / scene.grid.spacing[0]));
+    face_ = gate_face(scene);
     run_.set_gate_edge(face_, 0.0);
   }
   void release() {
@@ -141,6 +146,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   coupling.fluid_dt = scene.reference->fluid_dt;
   coupling.drag = scene.model.drag;
   coupling.predict_pressure = scene.solid.density < 1.5 * scene.liquid.density;
+  if (scene.gate) coupling.closed_gate = gate_face(gridded);
   BeadState beads;
   beads.position = column.position;
   CoupledRun run(coupling, bead_settings(scene, scratch), beads, floor, fluid, initial_alpha(scene, fluid));
