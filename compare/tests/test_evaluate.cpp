@@ -203,6 +203,20 @@ TEST_F(Evaluate, JUnitCountsFailuresAndEscapes) {
   EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
 }
 
+// A further curve, under the program's name; left out once its case has changed.
+TEST_F(Evaluate, TheRunOfAStockProgramIsAFurtherCurve) {
+  write_run("s1", series(0.1));
+  const auto peers_with = [&](const std::string& hash) {
+    const nlohmann::json json{{"program", "MPPICInterFoam"}, {"scene", "s1"}, {"case_hash", hash}};
+    write(paths_.records / "peers" / "MPPICInterFoam" / "s1" / "record.json", json.dump());
+    write(paths_.records / "peers" / "MPPICInterFoam" / "s1" / "series.csv", series(0.2));
+    return nlohmann::json::parse(curves_json(evaluate_row(volume_row))).at("peers");
+  };
+  const auto peers = peers_with(scene_.reference_hash);
+  EXPECT_EQ(peers.at("s1").at("MPPICInterFoam").at("curves").at("run_out").at("x").size(), 11u);
+  EXPECT_TRUE(peers_with("another").empty());
+}
+
 TEST_F(Evaluate, ARecordIsScaledByTheHeightItReallyHad) {
   write_run("s1", series(0.1));
   write_record("seed1", 0.1, scene_.reference_hash);
