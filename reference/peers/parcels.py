@@ -37,12 +37,12 @@ maxCo 1e9; maxAlphaCo 1e9; maxDeltaT {FILLING_STEP}; adjustTimeStep no;
     shutil.copytree(filling / f"{FILLING_STEP:g}" / "lagrangian", directory / "0/lagrangian")
 
 
-def positions(box, count, flat, seed=1):
-    """Parcels at random, one in each of `count` equal bricks, so that the bed is even."""
-    extent = [b - a for a, b in zip(*box)]
+def positions(box, spacing, per_cell, flat, seed=1):
+    """Parcels at random, one in each brick; `per_cell` bricks a cell, so that no cell starts fuller than another."""
     directions = 2 if flat else 3
-    edge = (math.prod(extent[:directions]) / count) ** (1.0 / directions)
-    numbers = [max(1, round(length / edge)) for length in extent[:directions]] + [1] * (3 - directions)
+    along = max(1, round(per_cell ** (1.0 / directions)))
+    extent = [b - a for a, b in zip(*box)]
+    numbers = [max(1, round(along * length / edge)) for length, edge in zip(extent, spacing)][:directions] + [1] * (3 - directions)
     draw = random.Random(seed)
     found = []
     for k in range(numbers[2]):
@@ -62,7 +62,7 @@ def bed_box(tank):
     return low, [low[0] + bed["length"], low[1] + bed["height"], low[2] + width]
 
 
-def write_case(directory, tank, count):
+def write_case(directory, tank, per_cell):
     """Gives back what the record states of the parcels."""
     scene = tank.scene
     if "bed" not in scene:
@@ -72,7 +72,7 @@ def write_case(directory, tank, count):
     openfoam_case.write_properties(directory, tank)
     openfoam_case.write_control(directory, tank, "MPPICInterFoam", 0.3)
     box = bed_box(tank)
-    parcels = positions(box, count, tank.flat)
+    parcels = positions(box, tank.spacing, per_cell, tank.flat)
     solid, d = scene["solid"], scene["solid"]["diameter"]
     volume = scene["bed"]["solid_fraction"] * math.prod(b - a for a, b in zip(*box))
     beads = volume / (math.pi / 6 * d ** 3)

@@ -83,9 +83,9 @@ def test_grains_and_other_walls_are_refused(tmp_path):
 
 def test_parcels_fill_the_bed_evenly_and_hold_all_its_beads(tmp_path):
     tank = openfoam_case.Tank(BED)
-    facts = parcels.write_case(tmp_path, tank, 600)
+    facts = parcels.write_case(tmp_path, tank, 100)
     beads = 0.57 * 0.03 * 0.02 * tank.size[2] / (math.pi / 6 * 1e-9)
     assert facts["parcels"] * facts["beads_per_parcel"] == pytest.approx(beads)
-    found = parcels.positions(parcels.bed_box(tank), 600, True)
+    found = parcels.positions(parcels.bed_box(tank), tank.spacing, 100, True)
     assert len(found) == 600
-    assert sum(x < 0.025 for x, _, _ in found) == 300 and all(0.01 <= x <= 0.04 and 0 <= y <= 0.02 for x, y, _ in found)
+    assert sum(x < 0.02 and y < 0.01 for x, y, _ in found) == 100 and all(0.01 <= x <= 0.04 and 0 <= y <= 0.02 for x, y, _ in found)
