@@ -129,11 +129,12 @@ def write_properties(directory, tank):
     foam_file(directory, "constant/turbulenceProperties", "dictionary", "simulationType laminar;\n")
 
 
-def write_control(directory, tank, program, courant):
+def write_control(directory, tank, program, courant, longest=math.inf):
+    """`longest` bounds the time step [s], as the interval of the output does."""
     output = tank.scene["output"]["series_interval"] * time_unit(tank)
     foam_file(directory, "system/controlDict", "dictionary", f"""application {program};
 startFrom startTime; startTime 0; stopAt endTime; endTime {tank.scene['time']['end'] * time_unit(tank):.12g};
-deltaT 1e-5; adjustTimeStep yes; maxCo {courant}; maxAlphaCo {courant}; maxDeltaT {output:.12g};
+deltaT 1e-5; adjustTimeStep yes; maxCo {courant}; maxAlphaCo {courant}; maxDeltaT {min(output, longest):.12g};
 writeControl adjustableRunTime; writeInterval {output:.12g};
 writeFormat ascii; writePrecision 8; writeCompression off; timeFormat general; timePrecision 8; runTimeModifiable no;
 """)

@@ -19,6 +19,7 @@ STRESS = {"pSolid": 10.0, "beta": 2.0, "eps": 1e-2}  # Harris & Crighton; those 
 
 CLOUD = "constant/kinematicCloudProperties"
 FILLING_STEP = 1e-9  # [s]
+LONGEST_STEP = 1e-4  # longer ones, which the Courant numbers allow, shoot parcels out of the bed [s]
 
 
 def fill(directory, run_program):
@@ -70,7 +71,7 @@ def write_case(directory, tank, per_cell):
     openfoam_case.write_mesh(directory, tank)
     openfoam_case.write_fields(directory, tank)
     openfoam_case.write_properties(directory, tank)
-    openfoam_case.write_control(directory, tank, "MPPICInterFoam", 0.3)
+    openfoam_case.write_control(directory, tank, "MPPICInterFoam", 0.3, LONGEST_STEP)
     box = bed_box(tank)
     parcels = positions(box, tank.spacing, per_cell, tank.flat)
     solid, d = scene["solid"], scene["solid"]["diameter"]
