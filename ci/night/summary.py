@@ -82,7 +82,11 @@ def headline(found: Findings) -> str:
                         (len(found.vanished), "checks gone")):
         if count:
             parts.append(f"{count} {what}")
-    return "; ".join(parts) or "no change"
+    if parts:
+        return "; ".join(parts)
+    if found.metrics and all(change.state == "no history" for change in found.metrics.values()):
+        return "nothing wrong, and no past to compare with"
+    return "no change"
 
 
 def text(run: Run, found: Findings) -> str:

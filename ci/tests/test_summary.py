@@ -40,7 +40,8 @@ def test_same_commit_twice_is_no_change(history):
 def test_first_night_is_green_but_says_that_it_has_no_past(history):
     found = judge(history, night(1))
     assert found.exit_code() == 0
-    assert "1 without a past" in summary.text(night(1), found)
+    text = summary.text(night(1), found)
+    assert "1 without a past" in text and text.splitlines()[0].endswith(": nothing wrong, and no past to compare with")
 
 
 def test_changed_metric_is_red_until_blessed(history):

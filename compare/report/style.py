@@ -34,7 +34,7 @@ def stamp(figure, runs):
     versions = ", ".join(sorted({label_of_version(run) for run in facts}))
     hashes = " ".join(f"{run['id']}:{run['case_hash'][:8]}" for run in facts)
     hosts = ", ".join(sorted({run["host"] for run in facts}))
-    text = textwrap.fill(f"granvof {versions} | {hashes} | {hosts}", width=int(28 * figure.get_figwidth()))
+    text = textwrap.fill(f"granvof {versions} | {hashes} | {hosts}", width=int(24 * figure.get_figwidth()))
     figure.supxlabel(text, fontsize=5.5, color="0.45")
 
 
