@@ -5,6 +5,9 @@ from report.drawing import FRONT_CHANGES, draw_peers, draw_published, draw_recor
 from report.style import plt
 
 
+WEIGHT = 100.0  # Pa, about what the submerged weight of these columns makes; logarithmic beyond, where needed
+
+
 def run_out_plot(results, directory):
     """Fig. 4: run-out against time, S1 and S2."""
     shown = runs_with(results, ("s1", "s2"), "run_out")
@@ -35,6 +38,8 @@ def base_pressure_plot(results, directory):
         draw_run(axis, results, run, "excess_base_pressure", colour, f"continuum, {kind}{packing}")
         draw_records(axis, results, run, "excess_base_pressure", colour, kind)
         axis.axhline(0, color="0.6", linewidth=0.8)
+        if max(abs(limit) for limit in axis.get_ylim()) > 100 * WEIGHT:  # a shock beside what the weight of the grains can do
+            axis.set_yscale("symlog", linthresh=WEIGHT)
         axis.set_ylabel("excess pressure [Pa]")
         axis.legend()
     axes[-1, 0].set_xlabel("t [s]")

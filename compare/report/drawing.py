@@ -27,6 +27,8 @@ def draw_records(axis, results, scene, curve, colour, label, scale=1.0, breaks_a
         return False
     begin, end = max(x[0] for x, _ in seeds), min(x[-1] for x, _ in seeds)
     common = np.linspace(begin, end, 400)
+    if breaks_at is not None:  # nothing between the last sample of one definition and the first of the next
+        common = common[(common <= breaks_at) | (common >= max((x[x > breaks_at].min(initial=end) for x, _ in seeds)))]
     stack = scale * np.array([np.interp(common, x, y) for x, y in seeds])
     x, mean = common, stack.mean(axis=0)
     if breaks_at is not None:

@@ -7,6 +7,7 @@ from report.results import snapshots
 from report.style import plt
 
 MOST_SHOTS = 8
+LEAST_COMMON = 2  # instants that a record must share with a run; then these alone are shown
 EMPTY = 0.05  # solid fraction below which a cell shows no colour
 
 
@@ -17,12 +18,17 @@ def snapshot_plot(results, run, directory):
     shots = list(snapshots(entry))
     if not shots:
         return []
+    variant, recorded = recorded_shots(results, run, [shot[0] for shot in shots], scene)
+    if sum(shot is not None for shot in recorded) >= LEAST_COMMON:
+        shots, recorded = zip(*[pair for pair in zip(shots, recorded) if pair[1]])
+    else:
+        variant = None
     if len(shots) > MOST_SHOTS:
-        shots = [shots[i] for i in np.unique(np.linspace(0, len(shots) - 1, MOST_SHOTS).round().astype(int))]
+        kept = np.unique(np.linspace(0, len(shots) - 1, MOST_SHOTS).round().astype(int))
+        shots, recorded = [shots[i] for i in kept], [recorded[i] for i in kept if recorded]
     columns = [("solid fraction $f_s$ [-]", solid_image, shots)]
     if any(has_colours(f_s, phi) for _, f_s, _, phi in shots):
         columns.append(("colour $\\phi$ [-]", colour_image, shots))
-    variant, recorded = recorded_shots(results, run, [shot[0] for shot in shots], scene)
     if variant:
         columns.append((f"DEM-VOF ({variant}), $f_s$ [-]", solid_image, recorded))
     draw(columns, shots, scene, results.facts(run), directory / f"snapshots-{run}")
@@ -50,7 +56,7 @@ def draw(columns, shots, scene, facts, path):
         figure, axes = plt.subplots(len(shots), len(columns), squeeze=False, sharex=True, sharey=True,
                                     figsize=(3.6 * len(columns) + 0.8, (3.4 * height / width + 0.28) * len(shots) + 0.9))
     for column, (label, image, given) in enumerate(columns):
-        drawn = [draw_shot(axis, image, shot, width, height) for axis, shot in zip(axes[:, column], given) if shot]
+        drawn = [draw_shot(axis, image, shot, width, height) for axis, shot in zip(axes[:, column], given)]
         figure.colorbar(drawn[0], ax=axes[:, column], label=label, shrink=0.8, location="right" if tall else "bottom",
                         aspect=30, pad=0.01)
     for axis, shot in zip(axes[:, 0], shots):
