@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import statistics
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Sequence
 
 # The median of |x - y| of two normal numbers is sigma * sqrt(2) / 1.4826.
@@ -36,6 +36,8 @@ class Rule:
 
 # A metric is computed by a deterministic code: one past value is enough, and a small change is a change.
 METRIC = Rule(width=4.0, relative=1e-3, absolute=1e-12, needed=1, confirm=1)
+# What is held against zero (an error of volume, a speed at rest) is rounding below this, in any of the units in use.
+AGAINST_ZERO = replace(METRIC, absolute=1e-6)
 # A cost is measured on a machine that others use: only a change that comes back the next night counts.
 COST = Rule(width=4.0, relative=0.10, absolute=0.05, needed=4, confirm=2)
 

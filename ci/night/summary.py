@@ -7,7 +7,7 @@ from typing import Sequence
 
 from night import blessings, stages
 from night.blessings import Blessing
-from night.change import COST, METRIC, Change, detect
+from night.change import AGAINST_ZERO, COST, METRIC, Change, detect
 from night.history import History, Metric, Run
 
 
@@ -50,7 +50,8 @@ def find(run: Run, history: History, blessed: Sequence[Blessing]) -> Findings:
 
     for metric in run.metrics:
         points = history.metric_points(metric.id, before=run.date)
-        found.metrics[metric.id] = detect(past(points, metric.id), metric.value, METRIC)
+        found.metrics[metric.id] = detect(past(points, metric.id), metric.value,
+                                            AGAINST_ZERO if metric.reference == 0 else METRIC)
     for cost in run.costs:
         points = history.cost_points(cost.name, run.host, before=run.date)
         found.costs[cost.name] = detect(past(points, f"cost:{cost.name}"), cost.value, COST)

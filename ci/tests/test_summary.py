@@ -57,6 +57,15 @@ def test_changed_metric_is_red_until_blessed(history):
     assert judge(history, night(7, value=2.16), [blessing]).exit_code() == 1  # the old value is no longer normal
 
 
+@pytest.mark.parametrize("before, now, code", [(2.1e-9, 6.1e-9, 0), (2.1e-9, 4e-6, 1), (0.2353, 0.2360, 1)])
+def test_what_is_held_against_zero_has_rounding(history, before, now, code):
+    def against_zero(run):
+        return replace(run, metrics=tuple(replace(metric, reference=0.0) for metric in run.metrics))
+
+    judge(history, against_zero(night(1, value=before)))
+    assert judge(history, against_zero(night(2, value=now))).exit_code() == code
+
+
 def test_a_run_without_a_result_is_red_and_named(history):
     judge(history, night(1))
     run = replace(night(2), unusable=("sw-2d: failed, the run did not finish: failed, step collapse",), without=("tests",))
