@@ -47,11 +47,16 @@ Range Grid::all_faces(int d) const {
   return r;
 }
 
-Range Grid::edges(int d, int e) const {
-  Range r = all_cells();
-  r.upper[d] += 1;
-  r.upper[e] += 1;
-  return r;
+Layout Grid::face_layout(int d) const {
+  Layout l = cells;
+  if (!l.periodic[d]) l.n[d] += 1;
+  return l;
+}
+
+Range Grid::edges(Range cells, int d, int e) {
+  cells.upper[d] += 1;
+  cells.upper[e] += 1;
+  return cells;
 }
 
 }  // namespace granvof

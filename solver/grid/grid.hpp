@@ -30,8 +30,13 @@ struct Grid {
   Range inner_faces(int d) const;
   // The same for the fluid, the faces of an open top included.
   Range fluid_faces(int d) const;
+  // Faces of direction d as a box of their own, in the memory of the cells' layout: one more than cells
+  // across a side.
+  Layout face_layout(int d) const;
   // Edges of the plane (d, e), both box boundaries included.
-  Range edges(int d, int e) const;
+  Range edges(int d, int e) const { return edges(all_cells(), d, e); }
+  // The same of a part of the cells.
+  static Range edges(Range cells, int d, int e);
   // Every face of direction d, both box boundaries included.
   Range all_faces(int d) const;
 };

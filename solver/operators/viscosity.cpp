@@ -4,18 +4,9 @@
 #include <cmath>
 
 #include "solver/closures/smagorinsky.hpp"
+#include "solver/operators/edge_mean.hpp"
 
 namespace granvof {
-namespace {
-
-// Harmonic mean of the four cells around an edge: gas beside liquid must not feel the liquid's viscosity.
-inline double edge_mean(const double* mu, std::ptrdiff_t c, std::ptrdiff_t s, std::ptrdiff_t t) {
-  const double a = mu[c] * mu[c - s], b = mu[c - t] * mu[c - s - t];
-  const double sum = (mu[c] + mu[c - s]) * b + (mu[c - t] + mu[c - s - t]) * a;
-  return sum > 0.0 ? 4.0 * a * b / sum : 0.0;
-}
-
-}  // namespace
 
 double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, const Field& f_s,
                               const Field& alpha) {

@@ -13,12 +13,15 @@ class FluidViscosity {
       : grid_(grid), scene_(scene), strain_(grid), viscosity_(grid) {}
 
   // f_c (mu_c + mu_t) of every cell from the old level; u, f_s, alpha with one ghost layer filled.
-  // Returns the largest kinematic viscosity [m2/s], which bounds the explicit step.
+  // Returns the largest kinematic viscosity [m2/s], which says whether a step bears the explicit term.
   double update(const Boundary& boundary, const FaceField& u_c, const Field& f_s, const Field& alpha);
 
   // Adds (1 / (f_c rho_c)) div(f_c (mu_c + mu_t)(grad u + grad u^T)) [m/s2] to component d.
   void add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d, const Range& faces,
                         Field& acceleration) const;
+
+  // f_c (mu_c + mu_t) of the cells [Pa s], ghosts filled.
+  const Field& of_cells() const { return viscosity_; }
 
  private:
   const Grid& grid_;

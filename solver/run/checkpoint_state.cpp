@@ -47,7 +47,6 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
   const Monitors::Values v = monitors.values();
   view.scalars = {{"last_dt", control.last()},
                   {"next_row", counters.next_row},
-                  {"kinematic_viscosity", counters.kinematic_viscosity},
                   {"wall_seconds", progress.wall_seconds},
                   {"core_seconds", progress.core_seconds},
                   {"solid_volume", v.solid_volume},
@@ -69,7 +68,6 @@ void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& c
   for_each_counter(counters, [&](const char* name, std::int64_t& value) { value = saved.counter(name); });
   counters.next_field = static_cast<std::size_t>(saved.counter("next_field"));
   counters.next_row = saved.scalar("next_row");
-  counters.kinematic_viscosity = saved.scalar("kinematic_viscosity");
   counters.wall_seconds = saved.scalar("wall_seconds");
   counters.core_seconds = saved.scalar("core_seconds");
   control.restore(saved.scalar("last_dt"));

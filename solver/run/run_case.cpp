@@ -97,7 +97,7 @@ RunWriter Run::open_writer() {
 }
 
 bool Run::advance() {
-  double dt = control_.next(now_, counters_.kinematic_viscosity);
+  double dt = control_.next(now_);
   // Meet the next field time exactly, without a tiny last step.
   if (counters_.next_field < scene_.times.field_times.size()) {
     const double left = scene_.times.field_times[counters_.next_field] - now_.time;
@@ -121,7 +121,6 @@ bool Run::advance() {
   std::swap(now_, next_);
   control_.accepted(dt);
   monitors_.update(now_, last_.liquid_left);
-  counters_.kinematic_viscosity = last_.kinematic_viscosity;
   counters_.newton += last_.pressure.newton;
   counters_.linear += last_.pressure.linear;
   counters_.friction += last_.friction.iterations;

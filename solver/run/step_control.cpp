@@ -11,7 +11,6 @@ namespace {
 constexpr double growth = 1.2;
 constexpr double after_refused_step = 0.4;
 constexpr double rows_of_the_gate_in_a_step = 0.5;
-constexpr double viscous_number = 0.4;  // nu dt sum(1/h^2) of the explicit viscosity; 0.5 is its limit
 constexpr double first_share_of_dt_max = 0.1;
 constexpr double elastic_courant =
     0.5;  // of explicit contact pressure; leapfrog's limit is 1 / sqrt(dimensions)
@@ -34,7 +33,7 @@ double elastic_speed(const Grid& grid, const Scene& scene, const State& s) {
 StepControl::StepControl(const Grid& grid, const Scene& scene)
     : grid_(grid), scene_(scene), last_(first_share_of_dt_max * scene.numerics.dt_max) {}
 
-double StepControl::next(const State& s, double kinematic_viscosity) const {
+double StepControl::next(const State& s) const {
   double rate = 0.0;  // of crossing a cell [1/s]
   const double* f = s.f_s.data();
   for (int d = 0; d < grid_.dim; ++d) {
@@ -48,10 +47,6 @@ double StepControl::next(const State& s, double kinematic_viscosity) const {
   }
   double dt = std::min(scene_.numerics.dt_max, growth * last_);
   if (rate > 0.0) dt = std::min(dt, scene_.numerics.cfl / rate);
-  double inverse_squares = 0.0;
-  for (int d = 0; d < grid_.dim; ++d)
-    if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
-  if (kinematic_viscosity > 0.0) dt = std::min(dt, viscous_number / (kinematic_viscosity * inverse_squares));
   if (scene_.numerics.contact_pressure == ContactPressure::explicit_)
     dt = std::min(dt, elastic_courant * *std::min_element(grid_.h.begin(), grid_.h.begin() + grid_.dim) /
                           elastic_speed(grid_, scene_, s));

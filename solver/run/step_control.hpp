@@ -12,9 +12,9 @@ class StepControl {
  public:
   StepControl(const Grid& grid, const Scene& scene);
 
-  // Largest step allowed from state `s` [s]: convective Courant number, gate, explicit fluid viscosity,
-  // dt_max and growth of at most 1.2 over the last accepted step.
-  double next(const State& s, double kinematic_viscosity) const;
+  // Largest step allowed from state `s` [s]: convective Courant number, gate, dt_max and growth of at
+  // most 1.2 over the last accepted step.
+  double next(const State& s) const;
   // What the step becomes if `dt` was refused; below dt_min the run has to give up.
   double after_refusal(double dt) const;
   void accepted(double dt) { last_ = dt; }

@@ -11,7 +11,9 @@
 namespace granvof {
 namespace {
 
-constexpr double largest_outflow = 0.95;         // share of a cell's content that may leave it in one step
+constexpr double largest_outflow = 0.95;  // share of a cell's content that may leave it in one step
+constexpr double explicit_viscous_number =
+    0.4;  // nu dt sum(1/h^2); explicit diffusion is unstable from 0.5 on
 constexpr double largest_solid_fraction = 0.66;  // beyond it the step's packing is not to be trusted
 
 }  // namespace
@@ -26,6 +28,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       drag_(grid, scene),
       rheology_(grid),
       viscosity_(grid, scene),
+      implicit_viscosity_(grid, boundary, communicator),
       friction_(grid, scene, boundary, communicator),
       pressure_(grid, scene, boundary, communicator),
       interface_(grid, scene, boundary),
@@ -51,7 +54,22 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   });
   cost_.time("predictor", [&] { predict(now, dt); });
   if (extra != nullptr) add_to_predictor(*extra, dt);
+  if (!std::isfinite(kinematic_viscosity_)) {
+    report.refused_because = "the viscosity of the fluid is not finite";
+    return report;
+  }
   cost_.time("friction", [&] { apply_friction(now, dt, next, report); });
+  if (!bears_explicit_viscosity(dt)) {
+    bool converged = true;
+    cost_.time("fluid viscosity", [&] {
+      converged = implicit_viscosity_.apply(dt, viscosity_.of_cells(), inertia_, drag_.beta(), aperture_,
+                                            now.u_c, next.u_c, next.u_s);
+    });
+    if (!converged) {
+      report.refused_because = "the fluid viscosity did not converge";
+      return report;
+    }
+  }
   cost_.time("pressure", [&] {
     report.pressure = pressure_.solve(dt, now.f_s, {now.theta, rheology_.restitution}, inertia_, drag_.beta(),
                                       aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
@@ -82,7 +100,6 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
                          next.theta);
   });
   next.fill_ghosts(boundary_);
-  report.kinematic_viscosity = kinematic_viscosity_;
   report.accepted = true;
   return report;
 }
@@ -162,6 +179,13 @@ void TimeStep::apply_friction(const State& now, double dt, State& next, StepRepo
     boundary_.exchange(next.u_c[d]);
   }
   next.u_strain = next.u_s;
+}
+
+bool TimeStep::bears_explicit_viscosity(double dt) const {
+  double inverse_squares = 0.0;
+  for (int d = 0; d < grid_.dim; ++d)
+    if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
+  return kinematic_viscosity_ * dt * inverse_squares <= explicit_viscous_number;
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

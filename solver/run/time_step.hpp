@@ -7,6 +7,7 @@
 #include "solver/operators/coupled_pressure.hpp"
 #include "solver/operators/friction.hpp"
 #include "solver/operators/granular_temperature.hpp"
+#include "solver/operators/implicit_viscosity.hpp"
 #include "solver/operators/interface_transport.hpp"
 #include "solver/operators/interphase_drag.hpp"
 #include "solver/operators/rheology.hpp"
@@ -21,8 +22,7 @@ struct StepReport {
   std::string refused_because;  // empty if accepted
   PressureReport pressure;
   linear::Report friction;
-  double liquid_left = 0.0;          // volume that left through the open top [m3]
-  double kinematic_viscosity = 0.0;  // largest of the fluid, LES included [m2/s]
+  double liquid_left = 0.0;  // volume that left through the open top [m3]
 };
 
 // Accelerations beside gravity, on the faces of each direction [m/s2]: the sources of a manufactured
@@ -45,6 +45,7 @@ class TimeStep {
   void predict(const State& now, double dt);
   void add_to_predictor(const BodyAcceleration& extra, double dt);
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
+  bool bears_explicit_viscosity(double dt) const;
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;
@@ -55,6 +56,7 @@ class TimeStep {
   InterphaseDrag drag_;
   Rheology rheology_;
   FluidViscosity viscosity_;
+  ImplicitViscosity implicit_viscosity_;
   Friction friction_;
   CoupledPressure pressure_;
   InterfaceTransport interface_;
@@ -63,7 +65,7 @@ class TimeStep {
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
   FaceField mass_, rhs_;                 // of the implicit solid momentum
   FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]
-  double kinematic_viscosity_ = 0.0;
+  double kinematic_viscosity_ = 0.0;     // largest of the fluid, LES included [m2/s]
   Stopwatch cost_;
 };
 

@@ -34,7 +34,7 @@ class Simulation {
   // One accepted step of at most `longest` [s], as run_case takes it. Fails the test where the step
   // collapses.
   void advance(double longest = 1.0) {
-    double dt = std::min(control_.next(now, viscosity_), longest);
+    double dt = std::min(control_.next(now), longest);
     for (;;) {
       last = step_.advance(now, dt, next_, extra ? &*extra : nullptr);
       if (last.accepted) break;
@@ -42,7 +42,6 @@ class Simulation {
       dt = control_.after_refusal(dt);
       ASSERT_GT(dt, scene.numerics.dt_min) << "t = " << now.time << " s: " << last.refused_because;
     }
-    viscosity_ = last.kinematic_viscosity;
     std::swap(now, next_);
     control_.accepted(dt);
     ++steps;
@@ -51,7 +50,7 @@ class Simulation {
   template <typename Observe>
   void until(double time, Observe&& observe) {
     while (now.time < time * (1.0 - 1e-12)) {
-      const double left = time - now.time, dt = std::min(control_.next(now, viscosity_), left);
+      const double left = time - now.time, dt = std::min(control_.next(now), left);
       advance(left / std::ceil(left / dt * (1.0 - 1e-9)));
       if (::testing::Test::HasFatalFailure()) return;
       observe();
@@ -110,7 +109,6 @@ class Simulation {
   State next_;
   TimeStep step_;
   StepControl control_;
-  double viscosity_ = 0.0;
 };
 
 }  // namespace granvof::test
