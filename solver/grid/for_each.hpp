@@ -15,7 +15,18 @@ struct Range {
   std::array<int, 3> lower{0, 0, 0};
   std::array<int, 3> upper{1, 1, 1};
   static Range all(const Layout& l) { return {{0, 0, 0}, l.n}; }
+  bool operator==(const Range&) const = default;
 };
+
+// What lies in both.
+inline Range common(const Range& a, const Range& b) {
+  Range both;
+  for (int d = 0; d < 3; ++d) {
+    both.lower[d] = a.lower[d] > b.lower[d] ? a.lower[d] : b.lower[d];
+    both.upper[d] = a.upper[d] < b.upper[d] ? a.upper[d] : b.upper[d];
+  }
+  return both;
+}
 
 inline constexpr int cells_that_pay_for_threads = 8000;  // measured: below it a second thread costs more
 

@@ -13,20 +13,6 @@ constexpr double relative_tolerance = 1e-4;
 constexpr int most_iterations = 300;
 constexpr int smoothing = 2;
 
-// Faces of one direction as a box of their own, in the memory of the cells' layout.
-Layout face_layout(const Grid& grid, int d) {
-  Layout l = grid.cells;
-  if (!l.periodic[d]) l.n[d] += 1;
-  return l;
-}
-
-std::vector<Layout> face_layouts(const Grid& grid) {
-  std::vector<Layout> layouts;
-  layouts.reserve(static_cast<std::size_t>(grid.dim));
-  for (int d = 0; d < grid.dim; ++d) layouts.push_back(face_layout(grid, d));
-  return layouts;
-}
-
 linear::Components pointers(FaceField& f, int dim) {
   linear::Components p{};
   for (int d = 0; d < dim; ++d) p[d] = f[d].data();
@@ -45,7 +31,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       lambda_(grid),
       divergence_(grid),
       marked_(grid),
-      solver_(face_layouts(grid), communicator),
+      communicator_(communicator),
       component_mass_(grid),
       residual_(grid),
       correction_(grid) {
@@ -54,20 +40,41 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
     shear_[p] = Field(grid);
   }
   for (int d = 0; d < grid.dim; ++d) {
-    multigrid_.emplace_back(face_layout(grid, d), communicator, grid.h);
     coefficient_[d] = FaceField(grid);
+    faces_[d] = faces_of(grid, box_, d);
   }
 }
 
+// Everything below works on the box that holds the grains: most of a tank is fluid, where nothing is to be
+// solved.
+void Friction::fit_box(const FaceInertia& inertia) {
+  const Range box = box_of_grains(grid_, inertia);
+  if (box == box_) return;
+  box_ = box;
+  for (Field* f : {&mu_, &lambda_}) f->fill(0.0);
+  for (int p = 0; p < (grid_.dim == 2 ? 1 : 3); ++p)
+    for (Field* f : {&mu_edge_[p], &shear_[p]}) f->fill(0.0);
+  multigrid_.clear();
+  std::vector<Layout> layouts;
+  for (int d = 0; d < grid_.dim; ++d) {
+    marked_[d].fill(0.0);
+    faces_[d] = faces_of(grid_, box_, d);
+    if (is_empty(box_)) continue;
+    layouts.push_back(faces_[d]);
+    multigrid_.emplace_back(faces_[d], communicator_, grid_.h);
+  }
+  if (!layouts.empty()) solver_.emplace(layouts, communicator_);
+}
+
 void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain) {
-  strain_.update(grid_, u_strain);
+  strain_.update(grid_, u_strain, box_);
   boundary_.fill_scalar(strain_.normal_squared);
   const double eta = scene_.model.contact_friction ? scene_.solid.friction : 0.0;
   const double n = scene_.contact.regularisation;
   const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data();
   const double* sq = strain_.squared.data();
   double *mu = mu_.data(), *lambda = lambda_.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+  for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     lambda[c] = kinetic[c];
     mu[c] = kinetic[c];
     if (p[c] > 0.0) mu[c] += closures::friction_viscosity(p[c], eta, n, std::sqrt(0.5 * sq[c]));
@@ -87,7 +94,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
       const double* g = strain_.shear[plane].data();
       double* edge = mu_edge_[plane].data();
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
-      for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) {
+      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
         const std::array<std::ptrdiff_t, 4> around{c, c - s, c - t, c - s - t};
         // Only cells in contact count: an average over empty cells would let the bed's surface slide.
         double pressure = 0.0, square = 0.0, viscosity = 0.0;
@@ -127,13 +134,22 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
         Range wall = grid_.edges(d, e);
         wall.lower[d] = upper ? grid_.cells.n[d] : 0;
         wall.upper[d] = wall.lower[d] + 1;
+        wall = common(wall, Grid::edges(box_, d, e));
         const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0, t = grid_.stride(e);
         const double h = grid_.h[d], u_wall = side.velocity[e];
-        const double* v = u_strain[e].data();
+        const int g =
+            3 - d - e;  // in 3D the other tangential direction: the wall limits the vector, not a component
+        const bool three = grid_.dim == 3;
+        const double w_wall = three ? side.velocity[g] : 0.0;
+        const std::ptrdiff_t r = three ? grid_.stride(g) : 0;
+        const double *v = u_strain[e].data(), *w = three ? u_strain[g].data() : v;
         double* edge = mu_edge_[plane_index(d, e)].data();
         for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
           const double pressure = 0.5 * (p[c + inside] + p[c + inside - t]);
-          const double speed = std::fabs(v[c + inside] - u_wall);
+          const std::ptrdiff_t i = c + inside;
+          const double along = v[i] - u_wall;
+          const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
+          const double speed = std::sqrt(along * along + across * across);
           edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, velocity_tolerance));
         });
       }
@@ -145,7 +161,7 @@ void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) 
   for (int d = 0; d < grid_.dim; ++d) {
     const double *f = inertia.f_s[d].data(), *open = aperture[d].data();
     double* m = marked_[d].data();
-    for_each(grid_.cells, grid_.inner_faces(d),
+    for_each(grid_.cells, common(grid_.inner_faces(d), box_),
              [=](std::ptrdiff_t c) { m[c] = f[c] >= least_solid_fraction ? open[c] : 0.0; });
     boundary_.exchange(marked_[d]);
   }
@@ -159,7 +175,7 @@ void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia) {
       const double *fd = inertia.f_s[d].data(), *fe = inertia.f_s[e].data();
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
       double* edge = mu_edge_[plane_index(d, e)].data();
-      for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) {
+      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
         const double least = std::fmin(std::fmin(fd[c], fd[c - t]), std::fmin(fe[c], fe[c - s]));
         edge[c] = least >= least_solid_fraction ? edge[c] : 0.0;
       });
@@ -170,7 +186,7 @@ void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia) {
 // Own diffusion of every component; couplings to faces that are known go to the diagonal.
 void Friction::set_preconditioner(const FaceField& mass) {
   for (int d = 0; d < grid_.dim; ++d) {
-    const Layout layout = face_layout(grid_, d);
+    const Layout& layout = faces_[d];
     const double *m = marked_[d].data(), *own = mass[d].data(), *mu = mu_.data(), *lambda = lambda_.data();
     double* diagonal = component_mass_[d].data();
     for_each(layout, [=](std::ptrdiff_t c) { diagonal[c] = m[c] * own[c]; });
@@ -194,11 +210,12 @@ void Friction::set_preconditioner(const FaceField& mass) {
         });
         if (!grid_.cells.periodic[e]) {
           // a wall is half a cell away: its edge counts twice (once above, through the unmarked ghost)
-          for (const int row : {0, grid_.cells.n[e] - 1}) {
+          for (const bool upper : {false, true}) {
+            if (upper ? box_.upper[e] < grid_.cells.n[e] : box_.lower[e] > 0) continue;
             Range wall = Range::all(layout);
-            wall.lower[e] = row;
-            wall.upper[e] = row + 1;
-            const std::ptrdiff_t at = row == 0 ? 0 : s;
+            wall.lower[e] = upper ? layout.n[e] - 1 : 0;
+            wall.upper[e] = wall.lower[e] + 1;
+            const std::ptrdiff_t at = upper ? s : 0;
             for_each(layout, wall, [=](std::ptrdiff_t c) { diagonal[c] += m[c] * inv_h2 * edge[c + at]; });
           }
         }
@@ -218,9 +235,11 @@ void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) 
       const std::ptrdiff_t s = l.stride[d];
       for (int upper = 0; upper < 2; ++upper) {
         const double shift = moving_walls ? 2.0 * boundary_.side(d, upper).velocity[c] : 0.0;
-        Range row = grid_.all_faces(c);
+        Range row = box_;
+        row.upper[c] += 1;
         row.lower[d] = upper ? l.n[d] - 1 : 0;
         row.upper[d] = row.lower[d] + 1;
+        if (upper ? box_.upper[d] < l.n[d] : box_.lower[d] > 0) continue;
         const std::ptrdiff_t out = upper ? s : -s;
         double* v = u[c];
         for_each(l, row, [=](std::ptrdiff_t i) { v[i + out] = shift - v[i]; });
@@ -230,7 +249,7 @@ void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) 
 }
 
 void Friction::apply(const FaceField& mass, const linear::Components& u, const linear::Components& y) {
-  Range with_wrapped = grid_.all_cells();  // the cell beyond a periodic lower end is a neighbour of face 0
+  Range with_wrapped = box_;  // the cell beyond a periodic lower end is a neighbour of face 0
   for (int d = 0; d < grid_.dim; ++d) with_wrapped.lower[d] -= grid_.cells.periodic[d] ? 1 : 0;
   double* div = divergence_.data();
   const double *mu = mu_.data(), *lambda = lambda_.data();
@@ -248,7 +267,7 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
       double* tau = shear_[plane_index(d, e)].data();
       const std::ptrdiff_t t = grid_.stride(e);
       const double inv_he = 1.0 / grid_.h[e];
-      for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) {
+      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
         tau[c] = edge[c] * ((v[c] - v[c - t]) * inv_he + (w[c] - w[c - s]) * inv_h);
       });
     }
@@ -264,7 +283,7 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
     const double* tau2 = three ? shear_[plane_index(d, g)].data() : tau1;
     const std::ptrdiff_t t1 = grid_.stride(e), t2 = three ? grid_.stride(g) : 0;
     const double inv_h1 = 1.0 / grid_.h[e], inv_h2 = three ? 1.0 / grid_.h[g] : 0.0;
-    for_each(face_layout(grid_, d), [=](std::ptrdiff_t c) {
+    for_each(faces_[d], [=](std::ptrdiff_t c) {
       const double ahead = 2.0 * mu[c] * (v[c + s] - v[c]) * inv_h + lambda[c] * div[c];
       const double behind = 2.0 * mu[c - s] * (v[c] - v[c - s]) * inv_h + lambda[c - s] * div[c - s];
       const double force =
@@ -277,6 +296,8 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
 linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField& rhs,
                                const FaceInertia& inertia, const Aperture& aperture, const Rheology& rheology,
                                const FaceField& u_strain, FaceField& u_s) {
+  fit_box(inertia);
+  if (is_empty(box_)) return {0, 0.0, 0.0, true};
   set_viscosity(rheology, u_strain);
   mark_faces(inertia, aperture);
   cut_edges_beside_empty_faces(inertia);
@@ -289,14 +310,14 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
   for (int d = 0; d < grid_.dim; ++d) {
     const double *b = rhs[d].data(), *m = marked_[d].data();
     double *res = residual_[d].data(), *x = correction_[d].data();
-    for_each(face_layout(grid_, d), [=](std::ptrdiff_t c) {
+    for_each(faces_[d], [=](std::ptrdiff_t c) {
       res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;
       x[c] = 0.0;
     });
   }
   set_preconditioner(mass);
   const double scale = scene_.contact.solid_fraction_min * scene_.solid.density / dt;
-  const linear::Report report = solver_.solve(
+  const linear::Report report = solver_->solve(
       [&](const linear::Components& p, const linear::Components& q) {
         fill_wall_ghosts(p, false);
         apply(mass, p, q);
@@ -309,7 +330,7 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
   for (int d = 0; d < grid_.dim; ++d) {
     const double *x = correction_[d].data(), *m = marked_[d].data();
     double* v = u_s[d].data();
-    for_each(face_layout(grid_, d), [=](std::ptrdiff_t c) { v[c] += m[c] * x[c]; });
+    for_each(faces_[d], [=](std::ptrdiff_t c) { v[c] += m[c] * x[c]; });
     boundary_.exchange(u_s[d]);
   }
   return report;

@@ -8,11 +8,13 @@
 // = P_s - tau_yy is what balances the weight.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/linear/conjugate_gradient.hpp"
 #include "solver/linear/multigrid.hpp"
 #include "solver/operators/aperture.hpp"
+#include "solver/operators/box_of_grains.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/operators/strain.hpp"
@@ -31,6 +33,7 @@ class Friction {
                        FaceField& u_s);
 
  private:
+  void fit_box(const FaceInertia& inertia);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
@@ -44,13 +47,16 @@ class Friction {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
+  Range box_{{0, 0, 0}, {0, 0, 0}};  // cells the fields below are kept on; outside they hold no stress
+  std::array<Layout, 3> faces_;      // of the box, by direction
   StrainRate strain_;
   Field mu_, lambda_;             // at cell centres [Pa s]
   std::array<Field, 3> mu_edge_;  // on edges [Pa s], by plane_index()
   std::array<Field, 3> shear_;    // shear stress on edges [Pa]
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
-  linear::ConjugateGradient solver_;
+  const Communicator& communicator_;
+  std::optional<linear::ConjugateGradient> solver_;
   std::vector<linear::Multigrid> multigrid_;  // one a component
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
   FaceField component_mass_, residual_, correction_;

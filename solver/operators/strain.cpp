@@ -9,20 +9,20 @@ StrainRate::StrainRate(const Grid& grid) : squared(grid), normal_squared(grid), 
   }
 }
 
-void StrainRate::update(const Grid& grid, const FaceField& u) {
+void StrainRate::update(const Grid& grid, const FaceField& u, const Range& part) {
   double *sq = squared.data(), *normal = normal_squared.data(), *div = divergence.data();
-  for_each(grid.cells, [=](std::ptrdiff_t c) { normal[c] = div[c] = 0.0; });
+  for_each(grid.cells, part, [=](std::ptrdiff_t c) { normal[c] = div[c] = 0.0; });
   for (int d = 0; d < grid.dim; ++d) {
     const double* v = u[d].data();
     const std::ptrdiff_t s = grid.stride(d);
     const double inv_h = 1.0 / grid.h[d];
-    for_each(grid.cells, [=](std::ptrdiff_t c) {
+    for_each(grid.cells, part, [=](std::ptrdiff_t c) {
       const double stretch = (v[c + s] - v[c]) * inv_h;
       div[c] += stretch;
       normal[c] += stretch * stretch;
     });
   }
-  for_each(grid.cells, [=](std::ptrdiff_t c) { sq[c] = normal[c]; });
+  for_each(grid.cells, part, [=](std::ptrdiff_t c) { sq[c] = normal[c]; });
   for (int d = 0; d < grid.dim; ++d) {
     for (int e = d + 1; e < grid.dim; ++e) {
       const double *v = u[d].data(), *w = u[e].data();
@@ -30,10 +30,10 @@ void StrainRate::update(const Grid& grid, const FaceField& u) {
       double* plane = plane_squared[plane_index(d, e)].data();
       const std::ptrdiff_t s = grid.stride(d), t = grid.stride(e);
       const double inv_h = 1.0 / grid.h[d], inv_he = 1.0 / grid.h[e];
-      for_each(grid.cells, grid.edges(d, e),
+      for_each(grid.cells, Grid::edges(part, d, e),
                [=](std::ptrdiff_t c) { g[c] = (v[c] - v[c - t]) * inv_he + (w[c] - w[c - s]) * inv_h; });
       // 2 S_de^2 = g^2 / 2, mean of the cell's four edges
-      for_each(grid.cells, [=](std::ptrdiff_t c) {
+      for_each(grid.cells, part, [=](std::ptrdiff_t c) {
         plane[c] =
             0.125 * (g[c] * g[c] + g[c + s] * g[c + s] + g[c + t] * g[c + t] + g[c + s + t] * g[c + s + t]);
         sq[c] += plane[c];

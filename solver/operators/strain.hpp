@@ -19,7 +19,9 @@ struct StrainRate {
 
   explicit StrainRate(const Grid& grid);
   // One ghost layer of u must be filled.
-  void update(const Grid& grid, const FaceField& u);
+  void update(const Grid& grid, const FaceField& u) { update(grid, u, grid.all_cells()); }
+  // The same for a part of the cells and their edges; other values stay as they are.
+  void update(const Grid& grid, const FaceField& u, const Range& part);
 };
 
 }  // namespace granvof

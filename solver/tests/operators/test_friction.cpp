@@ -317,6 +317,36 @@ TEST(Friction, CoulombWallTakesItsShareOfThePressureAtMost) {
   layer.s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(layer.u[0][c], 0.1, 1e-6); });
 }
 
+// In 3D the wall's stress opposes the sliding, at mu_w P_s in all and not in each direction.
+TEST(Friction, CoulombWallLimitsTheVectorOfItsStress) {
+  Scene scene = box_scene(3, {4, 8, 4}, {0.04, 0.08, 0.04}, WallKind::slip);
+  make_periodic(scene, 0);
+  make_periodic(scene, 2);
+  scene.sides[bottom].solid = {WallKind::coulomb, 0.3};
+  scene.sides[bottom].velocity = {0.1, 0.0, -0.2};
+  const double pressure = 500.0, mass = 1250.0 / step;
+  const Vec3 sliding{0.6, 0.0, -0.8};  // relative to the wall; its length is 1
+  Bed bed(scene);
+  bed.rheology.enduring_pressure.fill(pressure);
+  for (const int d : {0, 1, 2}) bed.mass[d].fill(mass);
+  Vec3 start{};
+  for (const int d : {0, 2}) {
+    start[d] = sliding[d] + scene.sides[bottom].velocity[d];
+    bed.u[d].fill(start[d]);
+    bed.s.each(bed.s.grid.inner_faces(d),
+               [&](int, int, int, std::ptrdiff_t c) { bed.rhs[d][c] = mass * start[d]; });
+  }
+  for (int i = 0; i < 10; ++i) {  // the wall's viscosity is that of the last velocity
+    bed.u_strain = bed.u;
+    bed.solve(step);
+  }
+  for (const int d : {0, 2}) {
+    double lost = 0.0;
+    bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { lost += mass * (start[d] - bed.u[d][c]) / 16.0; });
+    EXPECT_NEAR(lost * bed.s.grid.h[1], 0.3 * pressure * sliding[d], 2e-3 * 0.3 * pressure) << d;
+  }
+}
+
 TEST(Friction, SlipWallsTakeNoTangentialForceAndNoSlipWallsDo) {
   const double mass = 1250.0 / step;
   for (WallKind kind : {WallKind::slip, WallKind::no_slip}) {

@@ -1,0 +1,79 @@
+// The box the friction solver works on holds every face with grains, and is a function of the state alone.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "solver/operators/box_of_grains.hpp"
+#include "solver/tests/operators/tank.hpp"
+
+namespace granvof::test {
+namespace {
+
+struct Grains {
+  explicit Grains(Scene scene) : s(std::move(scene)), inertia(s.grid) {}
+  Range box(const Tank::Function& f_s) {
+    Field f = s.cells(f_s);
+    s.boundary.fill_scalar(f);
+    inertia.update(s.grid, s.scene, f, f);
+    return box_of_grains(s.grid, inertia);
+  }
+  Tank s;
+  FaceInertia inertia;
+};
+
+TEST(BoxOfGrains, EmptyWithoutGrains) {
+  Grains g(unit_scene(2, 40));
+  EXPECT_TRUE(is_empty(g.box([](const Vec3&) { return 0.0; })));
+  EXPECT_TRUE(is_empty(g.box([](const Vec3&) { return 0.4 * least_solid_fraction; })));
+}
+
+TEST(BoxOfGrains, HoldsEveryFaceWithGrainsAndARowAround) {
+  for (const int dim : {2, 3}) {
+    Grains g(unit_scene(dim, 40));
+    for (const std::array<int, 3> at : {std::array{0, 0, 0},
+                                        {39, 39, dim == 3 ? 39 : 0},
+                                        {7, 8, dim == 3 ? 15 : 0},
+                                        {16, 23, dim == 3 ? 31 : 0}}) {
+      const std::ptrdiff_t cell = g.s.grid.cells.index(at[0], at[1], at[2]);
+      const Range box = g.box([&](const Vec3& x) {
+        bool here = true;
+        for (int d = 0; d < dim; ++d) here = here && int(x[d] * 40.0) == at[d] && x[d] >= 0.0;
+        return here ? 2.0 * least_solid_fraction : 0.0;
+      });
+      for (int d = 0; d < dim; ++d) {
+        const double* f = g.inertia.f_s[d].data();
+        EXPECT_GE(f[cell], least_solid_fraction);
+        EXPECT_LE(box.lower[d], std::max(at[d] - 1, 0));
+        EXPECT_GE(box.upper[d], std::min(at[d] + 2, 40));
+        EXPECT_LE(box.upper[d] - box.lower[d], 24);
+        EXPECT_TRUE(box.lower[d] % 8 == 0 && box.upper[d] % 8 == 0);
+        g.s.each(g.s.grid.inner_faces(d), [&](int i, int j, int k, std::ptrdiff_t c) {
+          const std::array<int, 3> face{i, j, k};
+          for (int e = 0; e < dim && f[c] >= least_solid_fraction; ++e)
+            EXPECT_TRUE(face[e] >= box.lower[e] && face[e] <= box.upper[e]);
+        });
+      }
+    }
+  }
+}
+
+TEST(BoxOfGrains, WholeLengthOfAPeriodicDirection) {
+  Scene scene = unit_scene(2, 40);
+  make_periodic(scene, 0);
+  Grains g(scene);
+  const Range box = g.box([](const Vec3& x) { return x[1] < 0.1 ? 0.5 : 0.0; });
+  EXPECT_EQ(box, (Range{{0, 0, 0}, {40, 8, 1}}));
+}
+
+TEST(BoxOfGrains, LayoutsShareTheMemoryOfTheGrid) {
+  const Tank s(unit_scene(3, 40));
+  const Range box{{8, 16, 0}, {24, 40, 16}};
+  const Layout cells = cells_of(s.grid, box), faces = faces_of(s.grid, box, 1);
+  EXPECT_EQ(cells.n, (std::array{16, 24, 16}));
+  EXPECT_EQ(faces.n, (std::array{16, 25, 16}));
+  EXPECT_EQ(cells.index(3, 2, 1), s.grid.cells.index(11, 18, 1));
+  EXPECT_EQ(faces.index(0, 24, 0), s.grid.cells.index(8, 40, 0));
+}
+
+}  // namespace
+}  // namespace granvof::test
