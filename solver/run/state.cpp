@@ -48,7 +48,7 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
     if (scene.bed) {
       const double share = share_of(*scene.bed, box);
       s.f_s[c] = scene.bed->solid_fraction * share;
-      s.phi[c] = share > 0.0 ? 1.0 : 0.0;
+      s.phi[c] = share > 0.0 ? colour_of(*scene.bed, box) : 0.0;
     }
     s.alpha[c] = share_of(scene.liquid_boxes, box);
   });

@@ -225,7 +225,13 @@ class Completion {
                            axis_names[axis], box.lower[axis], s_.tank[axis]));
       }
     }
-    s_.bed = Bed{box, d_.bed.solid_fraction, d_.bed.slope};
+    const bool banded = d_.bed.colour != ColourPattern::uniform;
+    if (banded && !d_.bed.colour_size) {
+      refuse("bed.colour_size",
+             "a number > 0 [m], required with bed.colour = \"layers\", \"columns\" or \"checks\"");
+    }
+    if (!banded && d_.bed.colour_size) refuse("bed.colour_size", "only with bands (bed.colour)");
+    s_.bed = Bed{box, d_.bed.solid_fraction, d_.bed.slope, d_.bed.colour, d_.bed.colour_size.value_or(0.0)};
     if (slope_reach(*s_.bed) > d_.bed.length * (1.0 + roundoff)) {
       refuse("bed.slope",
              fmt::format("a front face that fits bed.length = {} m: at least {:.4g} degrees", d_.bed.length,

@@ -31,6 +31,8 @@ struct BedInput {
   double slope = Bed{}.slope;
   std::variant<double, BedPlace> y = BedPlace::floor;
   std::optional<double> z, width;
+  ColourPattern colour = ColourPattern::uniform;
+  std::optional<double> colour_size;
 };
 
 struct ReferenceInput {

@@ -32,6 +32,15 @@ double area_below_face(const Bed& bed, double lower, double upper, double from, 
   return (full - lower) * (to - from) + (empty - full) * std::max(mean, 0.0);
 }
 
+// Share of [lower, upper] that lies in bands 0, 2, 4, ... of `size`, counted from 0.
+double share_of_even_bands(double lower, double upper, double size) {
+  const auto covered = [=](double x) {
+    const double pairs = std::floor(x / (2.0 * size));
+    return pairs * size + std::min(x - 2.0 * size * pairs, size);
+  };
+  return (covered(upper) - covered(lower)) / (upper - lower);
+}
+
 }  // namespace
 
 double share_of(const Box& box, const Box& cell) {
@@ -53,6 +62,23 @@ double share_of(const Bed& bed, const Box& cell) {
   const double cell_area = (cell.upper[0] - cell.lower[0]) * (cell.upper[1] - cell.lower[1]);
   const double across = (both.upper[2] - both.lower[2]) / (cell.upper[2] - cell.lower[2]);
   return std::min(area / cell_area * across, 1.0);
+}
+
+double colour_of(const Bed& bed, const Box& cell) {
+  const Box both = common(bed.box, cell);
+  for (int axis = 0; axis < 3; ++axis)
+    if (both.upper[axis] <= both.lower[axis]) return 0.0;
+  if (bed.colour == ColourPattern::uniform) return 1.0;
+  const auto bands = [&](int axis) {
+    return share_of_even_bands(both.lower[axis] - bed.box.lower[axis], both.upper[axis] - bed.box.lower[axis],
+                               bed.colour_size);
+  };
+  double colour = bed.colour == ColourPattern::columns ? bands(0) : bands(1);
+  if (bed.colour == ColourPattern::checks) {
+    const double across = bands(0);
+    colour = colour * across + (1.0 - colour) * (1.0 - across);
+  }
+  return std::clamp(colour, 0.0, 1.0);
 }
 
 double share_of(std::span<const Box> boxes, const Box& cell) {

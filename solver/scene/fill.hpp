@@ -1,4 +1,5 @@
-// Which share of a cell the bed and the liquid of a scene cover at the start; exact, partial cells included.
+// Which share of a cell the bed and the liquid of a scene cover at the start, and the colour of the bed's
+// part; exact, partial cells included.
 #pragma once
 
 #include <span>
@@ -11,5 +12,8 @@ namespace granvof {
 double share_of(const Box& box, const Box& cell);
 double share_of(const Bed& bed, const Box& cell);              // the sloped front face counts
 double share_of(std::span<const Box> boxes, const Box& cell);  // of their union: what two cover counts once
+
+// Mean colour phi in [0, 1] of the bed's box within the cell; 0 where they have nothing in common.
+double colour_of(const Bed& bed, const Box& cell);
 
 }  // namespace granvof

@@ -114,6 +114,10 @@ std::vector<Key> contact_keys() {
 std::vector<Key> bed_keys() {
   const Words<BedPlace> places{
       {"floor", BedPlace::floor}, {"on-water", BedPlace::on_water}, {"floating", BedPlace::floating}};
+  const Words<ColourPattern> patterns{{"uniform", ColourPattern::uniform},
+                                      {"layers", ColourPattern::layers},
+                                      {"columns", ColourPattern::columns},
+                                      {"checks", ColourPattern::checks}};
   const Range angle{.lower = 0.0, .upper = 90.0, .lower_open = true};
   return {
       key("bed.x", "m", not_negative, MEMBER(bed.x), "Where the bed begins."),
@@ -129,6 +133,12 @@ std::vector<Key> bed_keys() {
           "Of the front face: 90 is a box, less a heap that meets its base at x + length."),
       otherwise(key("bed.z", "m", not_negative, MEMBER(bed.z), "3D only: where the bed begins in z."), "0"),
       otherwise(key("bed.width", "m", positive, MEMBER(bed.width), "3D only: along z."), "the tank's"),
+      scoped(choice("bed.colour", patterns, MEMBER(bed.colour),
+                    "Bands of colour 1 and 0 in turn at the start, to show mixing; no effect on the flow."),
+             Scope::run),
+      scoped(key("bed.colour_size", "m", positive, MEMBER(bed.colour_size),
+                 "Height of a layer, width of a column; required with bands."),
+             Scope::run),
       otherwise(
           key("gate.position", "m", positive, MEMBER(gate_position), "x of the plate that holds the bed."),
           "the bed's front"),

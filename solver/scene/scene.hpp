@@ -83,10 +83,16 @@ struct Box {
   bool operator==(const Box&) const = default;
 };
 
+// Colour phi of the grains at the start: bands of 1 and 0 in turn, 1 at the bed's lower left. For pictures of
+// mixing only.
+enum class ColourPattern { uniform, layers, columns, checks };
+
 struct Bed {
   Box box;  // where the grains are at the start; length = upper[0] - lower[0], height in y
   double solid_fraction = 0.0;  // initial packing [-], in (0, f_s,max]
   double slope = 90.0;          // of the front face, from the horizontal [degrees], in (0, 90]; 90: a box
+  ColourPattern colour = ColourPattern::uniform;
+  double colour_size = 0.0;  // height of a layer, width of a column [m], > 0 unless uniform
   bool operator==(const Bed&) const = default;
 };
 

@@ -55,5 +55,24 @@ TEST(Fill, AnAlmostVerticalFaceIsABox) {
   EXPECT_NEAR(volume(box, 0.1, 0.1, 12, 12), volume(steep, 0.1, 0.1, 12, 12), 1e-5);
 }
 
+TEST(Fill, ColoursOfBandsArePartial) {
+  Bed bed{{{1, 2, 0}, {5, 6, 1}}, 0.5, 90.0};
+  EXPECT_EQ(colour_of(bed, {{2, 3, 0}, {3, 4, 1}}), 1.0);
+  bed.colour_size = 0.5;
+  bed.colour = ColourPattern::layers;  // 1 in [2, 2.5], 0 in [2.5, 3], ...
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{2, 2, 0}, {3, 2.5, 1}}), 1.0);
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{2, 2.5, 0}, {3, 3, 1}}), 0.0);
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{2, 2.25, 0}, {3, 3.25, 1}}), 0.5);
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{2, 1, 0}, {3, 2.75, 1}}), 2.0 / 3.0);  // the bed's part of the cell alone
+  EXPECT_EQ(colour_of(bed, {{6, 2, 0}, {7, 3, 1}}), 0.0);
+  bed.colour = ColourPattern::columns;  // 1 in [1, 1.5], ...
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{1, 2, 0}, {1.5, 6, 1}}), 1.0);
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{1.25, 2, 0}, {1.75, 6, 1}}), 0.5);
+  bed.colour = ColourPattern::checks;
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{1, 2, 0}, {1.5, 2.5, 1}}), 1.0);
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{1.5, 2, 0}, {2, 2.5, 1}}), 0.0);
+  EXPECT_DOUBLE_EQ(colour_of(bed, {{1.5, 2.5, 0}, {2, 3, 1}}), 1.0);
+}
+
 }  // namespace
 }  // namespace granvof::test
