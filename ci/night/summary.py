@@ -11,6 +11,9 @@ from night.change import AGAINST_ZERO, COST, METRIC, Change, detect
 from night.history import History, Metric, Run
 
 
+COST_UNIT = "core-s"  # of the rows of the table that judge a cost
+
+
 @dataclass
 class Findings:
     broken_stages: list[str] = field(default_factory=list)   # "verify: failed"
@@ -49,6 +52,8 @@ def find(run: Run, history: History, blessed: Sequence[Blessing]) -> Findings:
         return [point.value for point in points if point.date >= since]
 
     for metric in run.metrics:
+        if metric.unit == COST_UNIT:
+            continue  # a cost, which varies from night to night; those of all runs are compared as costs below
         points = history.metric_points(metric.id, before=run.date)
         found.metrics[metric.id] = detect(past(points, metric.id), metric.value,
                                             AGAINST_ZERO if metric.reference == 0 else METRIC)

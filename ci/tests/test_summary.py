@@ -66,6 +66,15 @@ def test_what_is_held_against_zero_has_rounding(history, before, now, code):
     assert judge(history, against_zero(night(2, value=now))).exit_code() == code
 
 
+def test_a_row_that_judges_a_cost_is_no_metric(history):
+    def cost_row(run):
+        return replace(run, metrics=tuple(replace(metric, unit="core-s") for metric in run.metrics))
+
+    judge(history, cost_row(night(1, value=2.64)))
+    found = judge(history, cost_row(night(2, value=2.73)))
+    assert found.exit_code() == 0 and not found.changed_metrics()
+
+
 def test_a_run_without_a_result_is_red_and_named(history):
     judge(history, night(1))
     run = replace(night(2), unusable=("sw-2d: failed, the run did not finish: failed, step collapse",), without=("tests",))
