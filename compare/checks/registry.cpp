@@ -130,6 +130,18 @@ Measured dam_break_distance(const Run& run, const Parameters& p, const FindRun&)
       "the two curves do not cover the window");
 }
 
+Measured grain_front_distance(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(
+      rms_distance(run.curve("front_dilute"), published_curve(run, *p.published, *p.column), *p.window),
+      "the two curves do not cover the window");
+}
+
+Measured base_pressure_distance(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(
+      rms_distance(excess_base_pressure(run), published_curve(run, *p.published, *p.column), *p.window),
+      "the two curves do not cover the window");
+}
+
 Measured solid_level_distance(const Run& run, const Parameters& p, const FindRun&) {
   return measured(rms_distance(solid_level_curve(run, *p.level),
                                published_curve(run, *p.published, *p.column), *p.window),
@@ -217,6 +229,12 @@ constexpr std::array table{
                 window_only, decay_rate_late},
     MetricEntry{"dam_break_distance", "-", "rms over tau of the water front x/a against a published one",
                 Needs{.window = true, .published = true}, dam_break_distance},
+    MetricEntry{"grain_front_distance", "m",
+                "rms over t of the grain front (f_s >= 0.30) against a published one",
+                Needs{.window = true, .published = true}, grain_front_distance},
+    MetricEntry{"base_pressure_distance", "Pa",
+                "rms over t of the excess pore pressure at the base against a published one",
+                Needs{.window = true, .published = true}, base_pressure_distance},
     MetricEntry{"solid_level_distance", "m",
                 "rms over t of the height of a level of f_s against a published one",
                 Needs{.window = true, .level = true, .published = true}, solid_level_distance},

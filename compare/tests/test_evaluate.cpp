@@ -235,6 +235,26 @@ TEST_F(Evaluate, TheCanaryIsRedOnlyWhereItDiffers) {
   EXPECT_FALSE(canary_result({Verdict::agrees, "within"}).judgement.unexpected);
 }
 
+// A front 0.01 m ahead of the published one everywhere is 0.01 m away; outside its times there is nothing to
+// compare.
+TEST_F(Evaluate, AFrontAgainstAPublishedSeries) {
+  fs::create_directories(root_ / "cases");
+  fs::copy(fs::path(GRANVOF_CASES_DIR) / "s1.toml", root_ / "cases" / "s1.toml");
+  paths_.cases = root_ / "cases";
+  write(root_ / "cases" / "published" / "front.tsv", "t [s]\tfront [m]\n0.1\t0.10\n0.5\t0.14\n");
+  write_run("s1", series(0.1));
+  const auto row = [](const std::string& window) {
+    return "metric = \"grain_front_distance\"\npublished = \"front.tsv\"\ncolumn = \"front\"\nwindow = " +
+           window +
+           "\nreference = { kind = \"published\", value = 0, source = \"x\" }\n"
+           "tolerance = { absolute = 0.02, unit = \"m\" }\n";
+  };
+  const Evaluation inside = evaluate_row(row("[0.1, 0.5]"));
+  EXPECT_NEAR(*inside.results[0].value, 0.01, 1e-6);  // the series has six digits
+  EXPECT_EQ(inside.results[0].judgement.verdict, Verdict::agrees);
+  EXPECT_FALSE(evaluate_row(row("[0.1, 0.6]")).results[0].value);
+}
+
 TEST_F(Evaluate, ABadCaseIsAnError) {
   paths_.cases = root_ / "nowhere";
   EXPECT_THROW(evaluate_row(volume_row), CaseError);
