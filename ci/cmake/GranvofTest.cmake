@@ -1,4 +1,4 @@
-# granvof_test(NAME <target> LABEL unit|verification|regression SOURCES <files> LIBS <libraries>)
+# granvof_test(NAME <target> LABEL unit|verification SOURCES <files> LIBS <libraries>)
 # builds one GoogleTest program; each of its tests becomes a ctest test with that label.
 function(granvof_test)
   cmake_parse_arguments(ARG "" "NAME;LABEL" "SOURCES;LIBS" ${ARGN})

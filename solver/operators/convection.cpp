@@ -23,9 +23,9 @@ inline double limited_difference(const double* v, std::ptrdiff_t c, std::ptrdiff
   return ahead + 0.5 * van_leer(back, ahead) - 0.5 * van_leer(ahead, further);
 }
 
-template <typename Difference>
+template <typename Difference, typename AtOpenTop>
 void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces, Difference difference,
-                Field& acceleration) {
+                AtOpenTop at_open_top, Field& acceleration) {
   const double* v = u[d].data();
   double* out = acceleration.data();
   const std::ptrdiff_t sd = grid.stride(d);
@@ -44,7 +44,7 @@ void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces,
       inside.upper[d] = std::min(faces.upper[d], grid.cells.n[d]);
       last.lower[d] = inside.upper[d];
       along(inside, difference);
-      along(last, upwind_difference);  // an open top: the ghosts end one face beyond it
+      along(last, at_open_top);  // an open top: the ghosts end one face beyond it
     } else {
       // the carrier component, averaged to the face of d
       for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
@@ -61,10 +61,17 @@ void convective_acceleration(const Grid& grid, const FaceField& u, int d, const 
                              Field& acceleration) {
   double* out = acceleration.data();
   for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
+  // As function objects: a pointer to a function would be called for every value.
+  const auto one_sided = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+    return upwind_difference(v, c, s, w);
+  };
+  const auto second_order = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+    return limited_difference(v, c, s, w);
+  };
   if (limited) {
-    accumulate(grid, u, d, faces, limited_difference, acceleration);
+    accumulate(grid, u, d, faces, second_order, one_sided, acceleration);
   } else {
-    accumulate(grid, u, d, faces, upwind_difference, acceleration);
+    accumulate(grid, u, d, faces, one_sided, one_sided, acceleration);
   }
 }
 

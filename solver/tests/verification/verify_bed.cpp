@@ -1,4 +1,5 @@
 // Beds that settle, rest and consolidate under water: drag (8), contact pressure (13), friction (17).
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,7 +22,7 @@ double front_at(const Simulation& run, double level) {
 
 // Settling suspension of Pham Van Bang et al. (cases/sedimentation.toml): drag (8) sets the fall of the upper
 // front (f_s = 0.25), contact pressure (13) the packed front (f_s = 0.55) that rises from the floor. One
-// column of 40 cells of 1.5 mm; steps of 0.05 s, which the explicit liquid viscosity sets. While it settles
+// column of 40 cells of 1.5 mm; steps of 0.1 s. While it settles
 // (to 952 s) the upper front is to be met to half a cell (the published readings are steps of 0.8 mm).
 // Expected failures, red if they get worse and if they are mended: with f_s,min = 0.57 these light beads
 // come to rest at 0.57, the real ones at 0.607, so that the deposit ends 3 mm too high and the packed front
@@ -189,6 +190,97 @@ TEST(Consolidation, PorePressureDecay) {
   report("steps", run.steps);
   EXPECT_NEAR(rate_pore, rate, 0.01 * rate);
   EXPECT_NEAR(rate_solid, rate, 0.01 * rate);
+}
+
+// Slowest decay rate [1/s] of the excess pore pressure of a bed that is drained at its top and rests on an
+// impermeable floor. About the rest state dP_s/dy = -f (rho_s - rho_l) g, with q = P_s'(f) f' and the balance
+// of Consolidation:
+//   (1/P_s') dq/dt = -d/dy(kappa ds/dy),  ds/dy = -dq/dy - (rho_s - rho_l) g q / P_s',  kappa = f f_c^2 /
+//   beta,
+// s the excess pore pressure; q = 0 at the top, ds/dy = 0 at the floor. Friction off, so that P_s alone
+// carries the load. Eigenvalue by inverse iteration on n cells, Thomas' algorithm inside.
+double drained_rate(const Scene& scene, int n) {
+  const double mass = scene.bed->solid_fraction * (scene.bed->box.upper[1] - scene.bed->box.lower[1]);
+  const double weight = (scene.solid.density - scene.liquid.density) * scene.gravity;
+  const auto fraction_at = [&](double load) {  // f of P_s(f) = load
+    double low = scene.contact.solid_fraction_min, high = scene.contact.dense_solid_fraction;
+    for (int i = 0; i < 100; ++i) {
+      const double f = 0.5 * (low + high);
+      (closures::elastic_pressure(f, scene.contact).value < load ? low : high) = f;
+    }
+    return low;
+  };
+  // Cells of equal solids, from the floor up: the load above each is known.
+  const double solids = mass / n;
+  std::vector<double> h, slope, kappa;
+  for (int j = 0; j < n; ++j) {
+    const double f = fraction_at(weight * solids * (n - j - 0.5)), f_c = 1.0 - f, d = scene.solid.diameter;
+    h.push_back(solids / f);
+    slope.push_back(closures::elastic_pressure(f, scene.contact).slope);
+    kappa.push_back(f_c * f_c * f_c * d * d / (150.0 * f * scene.liquid.viscosity));
+  }
+  // rate q_j = slope_j / h_j (F_(j+1/2) - F_(j-1/2)), F = kappa ds/dy
+  std::vector<double> below(n, 0.0), own(n, 0.0), above(n, 0.0);
+  const auto face = [&](int j, double distance, double k, double inside,
+                        double outside) {  // upper face of cell j
+    const double to_own = k * (1.0 / distance - 0.5 * weight * inside),
+                 to_next = k * (-1.0 / distance - 0.5 * weight * outside);
+    own[j] += to_own * slope[j] / h[j];
+    above[j] = to_next * slope[j] / h[j];
+    if (j + 1 == n) return;
+    below[j + 1] = -to_own * slope[j + 1] / h[j + 1];
+    own[j + 1] -= to_next * slope[j + 1] / h[j + 1];
+  };
+  for (int j = 0; j + 1 < n; ++j)
+    face(j, 0.5 * (h[j] + h[j + 1]), 0.5 * (kappa[j] + kappa[j + 1]), 1.0 / slope[j], 1.0 / slope[j + 1]);
+  face(n - 1, 0.5 * h[n - 1], kappa[n - 1], 1.0 / slope[n - 1], 0.0);
+  std::vector<double> q(n, 1.0), c(n), x(n);
+  double rate = 0.0;
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    double pivot = own[0];
+    x[0] = q[0] / pivot;
+    for (int j = 1; j < n; ++j) {
+      c[j] = above[j - 1] / pivot;
+      pivot = own[j] - below[j] * c[j];
+      x[j] = (q[j] - below[j] * x[j - 1]) / pivot;
+    }
+    for (int j = n - 2; j >= 0; --j) x[j] -= c[j + 1] * x[j + 1];
+    rate = q[0] / x[0];
+    for (int j = 0; j < n; ++j) q[j] = x[j] / x[0];
+  }
+  return rate;
+}
+
+// A loose bed (0.57, no contacts yet) under its own weight: the pore water carries it all at first and drains
+// through the top. The last part of the decay at the floor, from 2 % to 0.2 % of the load, is the slowest
+// mode.
+TEST(Consolidation, DrainedBedUnderItsWeight) {
+  for (const char* dy : {"0.0025", "0.00125"}) {
+    Simulation run(
+        parse_scene(bed_column, "bed",
+                    std::vector<std::string>{std::string("grid.dy=") + dy, "model.contact_friction=false",
+                                             "solid.diameter=1e-4", "model.granular_temperature=off",
+                                             "numerics.volume_tolerance=1e-10", "numerics.dt_max=2e-3"}));
+    const double rate = drained_rate(run.scene, 400);
+    const double load = 0.57 * 1500.0 * run.scene.gravity * 0.05;
+    Curve pressure;
+    run.until(12.0 / rate, [&] { pressure.add(run.now.time, run.now.p_c[run.cell(1, 0)]); });
+    if (HasFatalFailure()) return;
+    const double rest = pressure.y.back();
+    const auto last_above = [&](double excess) {
+      std::size_t i = pressure.y.size();
+      while (i > 0 && pressure.y[i - 1] - rest < excess) --i;
+      return i - 1;
+    };
+    const std::size_t from = last_above(0.02 * load), to = last_above(0.002 * load);
+    const double measured =
+        std::log((pressure.y[from] - rest) / (pressure.y[to] - rest)) / (pressure.x[to] - pressure.x[from]);
+    report(std::string("start_over_load_dy_") + dy,
+           (*std::max_element(pressure.y.begin(), pressure.y.end()) - rest) / load);
+    report(std::string("rate_theory_dy_") + dy, rate);
+    report(std::string("rate_dy_") + dy, measured);
+    EXPECT_NEAR(measured, rate, 0.1 * rate);
+  }
 }
 
 // A heap of 12 degrees, under the angle of friction atan(0.40) = 21.8, stays (cases/heap.toml at 5 mm): its
