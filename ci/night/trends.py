@@ -63,7 +63,8 @@ def write_page(history: History, host: str, summary: str, path: Path) -> None:
     """One section a scene and one for the costs of this host, the summary on top."""
     panels: dict[str, list] = defaultdict(list)
     for check, scene, metric, unit in history.metric_names():
-        panels[scene].append((metric, unit, history.metric_points(check)))
+        kind = check.rsplit(".", 1)[-1]  # of the reference; one metric may be held against several
+        panels[scene].append((f"{metric} ({kind})", unit, history.metric_points(check)))
     costs = [(name, unit, history.cost_points(name, host)) for name, unit in history.cost_names(host)]
     sections = [*sorted(panels.items()), *([(f"cost on {host}", costs)] if costs else [])]
     body = [f"<pre>{html.escape(summary)}</pre>"]
