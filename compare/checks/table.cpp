@@ -1,8 +1,5 @@
 #include "compare/checks/table.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,109 +8,10 @@
 
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
+#include "compare/input/toml_entry.hpp"
 
 namespace granvof::compare {
 namespace {
-
-// A table of the file together with where it stands, so that every complaint names its place.
-class Entry {
- public:
-  Entry(const toml::table& table, std::string path, std::string_view file)
-      : table_(table), path_(std::move(path)), file_(file) {}
-
-  [[noreturn]] void fail(std::string_view key, std::string_view what) const {
-    const toml::node* node = table_.get(key);
-    const auto line = (node ? node->source() : table_.source()).begin.line;
-    throw TableError(
-        fmt::format("{}:{}: {}{}: {}", file_, line, path_, key.empty() ? "" : fmt::format(".{}", key), what));
-  }
-
-  void allow_only(std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, node] : table_)
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-        fail(key.str(), fmt::format("unknown key; allowed: {}", fmt::join(keys, ", ")));
-  }
-
-  bool has(std::string_view key) const { return table_.contains(key); }
-  int line() const { return static_cast<int>(table_.source().begin.line); }
-
-  std::string text(std::string_view key) const {
-    const auto value = require(key).value_exact<std::string>();
-    if (!value || value->empty()) fail(key, "expected a text that is not empty");
-    return *value;
-  }
-
-  double number(std::string_view key) const { return number_of(require(key), key); }
-
-  double non_negative(std::string_view key) const {
-    const double value = number(key);
-    if (value < 0.0) fail(key, fmt::format("{} given; allowed: 0 or more", value));
-    return value;
-  }
-
-  bool truth(std::string_view key) const {
-    const auto value = require(key).value_exact<bool>();
-    if (!value) fail(key, "expected true or false");
-    return *value;
-  }
-
-  std::vector<std::string> texts(std::string_view key) const {
-    const toml::array* array = require(key).as_array();
-    if (!array) return {text(key)};
-    std::vector<std::string> list;
-    for (const toml::node& node : *array) {
-      const auto value = node.value_exact<std::string>();
-      if (!value || value->empty()) fail(key, "expected texts that are not empty");
-      list.push_back(*value);
-    }
-    if (list.empty()) fail(key, "the list is empty");
-    return list;
-  }
-
-  Window window(std::string_view key) const {
-    const toml::array* array = require(key).as_array();
-    if (!array || array->size() != 2) fail(key, "expected two numbers [begin, end]");
-    const Window window{number_of(*array->get(0), key), number_of(*array->get(1), key)};
-    if (!(window.begin < window.end))
-      fail(key, fmt::format("[{}, {}] given; begin must come before end", window.begin, window.end));
-    return window;
-  }
-
-  Entry entry(std::string_view key) const {
-    const toml::table* inner = require(key).as_table();
-    if (!inner) fail(key, "expected a table { ... }");
-    return {*inner, fmt::format("{}.{}", path_, key), file_};
-  }
-
-  // The member of `all` whose name_of() is given under `key`.
-  template <typename Enum>
-  Enum one_of(std::string_view key, std::initializer_list<Enum> all) const {
-    const std::string given = text(key);
-    std::vector<std::string_view> names;
-    for (const Enum member : all) {
-      if (name_of(member) == given) return member;
-      names.push_back(name_of(member));
-    }
-    fail(key, fmt::format("'{}' given; allowed: {}", given, fmt::join(names, ", ")));
-  }
-
- private:
-  const toml::node& require(std::string_view key) const {
-    const toml::node* node = table_.get(key);
-    if (!node) fail("", fmt::format("the key '{}' is missing", key));
-    return *node;
-  }
-
-  double number_of(const toml::node& node, std::string_view key) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value)) fail(key, "expected a finite number");
-    return *value;
-  }
-
-  const toml::table& table_;
-  std::string path_;
-  std::string_view file_;
-};
 
 template <typename Entries>
 std::string names_of(const Entries& entries) {
@@ -122,19 +20,16 @@ std::string names_of(const Entries& entries) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-PlannedRun read_run(const Entry& entry) {
+PlannedRun read_run(const TomlEntry& entry) {
   entry.allow_only({"id", "case", "set"});
   PlannedRun run;
   run.id = entry.text("id");
   run.case_name = entry.has("case") ? entry.text("case") : run.id;
-  if (entry.has("set")) run.set = entry.texts("set");
-  for (const std::string& assignment : run.set)
-    if (assignment.find('=') == std::string::npos)
-      entry.fail("set", fmt::format("'{}' given; expected key=value", assignment));
+  if (entry.has("set")) run.set = entry.assignments("set");
   return run;
 }
 
-Parameters read_parameters(const Entry& check, const MetricEntry& metric) {
+Parameters read_parameters(const TomlEntry& check, const MetricEntry& metric) {
   Parameters parameters;
   const auto need = [&](bool needed, std::string_view key) {
     if (needed && !check.has(key))
@@ -152,7 +47,7 @@ Parameters read_parameters(const Entry& check, const MetricEntry& metric) {
   return parameters;
 }
 
-Reference read_reference(const Entry& entry, const MetricEntry& metric) {
+Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
   entry.allow_only({"kind", "source", "value", "formula", "record", "band"});
   Reference reference;
   reference.kind = entry.one_of("kind", {ReferenceKind::theory, ReferenceKind::published, ReferenceKind::dem,
@@ -184,7 +79,7 @@ Reference read_reference(const Entry& entry, const MetricEntry& metric) {
   return reference;
 }
 
-Tolerance read_tolerance(const Entry& entry, const MetricEntry& metric) {
+Tolerance read_tolerance(const TomlEntry& entry, const MetricEntry& metric) {
   entry.allow_only({"absolute", "relative", "unit"});
   Tolerance tolerance;
   tolerance.relative = entry.has("relative");
@@ -210,7 +105,7 @@ std::string id_of(const Check& check) {
   return id + fmt::format(".{}", name_of(check.reference.kind));
 }
 
-std::vector<Check> read_check(const Entry& entry) {
+std::vector<Check> read_check(const TomlEntry& entry) {
   entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
                     "reference", "relation", "tolerance", "asserted", "frequency", "expected_failure",
                     "label"});
@@ -229,7 +124,7 @@ std::vector<Check> read_check(const Entry& entry) {
   check.frequency = entry.one_of(
       "frequency", {Frequency::short_, Frequency::verify, Frequency::nightly, Frequency::weekly});
   if (entry.has("expected_failure")) {
-    const Entry failure = entry.entry("expected_failure");
+    const TomlEntry failure = entry.entry("expected_failure");
     failure.allow_only({"reason", "distance"});
     check.expected_failure = {failure.text("reason"), failure.non_negative("distance")};
     if (!check.asserted) entry.fail("expected_failure", "a row that is not asserted cannot fail");
@@ -244,42 +139,27 @@ std::vector<Check> read_check(const Entry& entry) {
   return checks;
 }
 
-const toml::array* rows_of(const toml::table& root, std::string_view key, std::string_view name) {
-  const toml::node* node = root.get(key);
-  if (!node) return nullptr;
-  const toml::array* rows = node->as_array();
-  if (!rows || !rows->is_array_of_tables())
-    throw TableError(
-        fmt::format("{}:{}: {}: expected [[{}]] entries", name, node->source().begin.line, key, key));
-  return rows;
-}
-
 Table read_root(const toml::table& root, std::string_view name) {
-  const Entry top(root, "table", name);
+  const TomlEntry top(root, "table", name);
   top.allow_only({"run", "check"});
   Table table;
   std::set<std::string> runs, checks;
-  if (const toml::array* rows = rows_of(root, "run", name))
-    for (std::size_t i = 0; i < rows->size(); ++i) {
-      const Entry entry(*rows->get(i)->as_table(), fmt::format("run[{}]", i + 1), name);
-      table.runs.push_back(read_run(entry));
-      if (!runs.insert(table.runs.back().id).second)
-        entry.fail("id", fmt::format("'{}' is given twice", table.runs.back().id));
-    }
-  const auto require_run = [&](const Entry& entry, std::string_view key, const std::string& run) {
+  for (const TomlEntry& entry : top.entries("run")) {
+    table.runs.push_back(read_run(entry));
+    if (!runs.insert(table.runs.back().id).second)
+      entry.fail("id", fmt::format("'{}' is given twice", table.runs.back().id));
+  }
+  const auto require_run = [&](const TomlEntry& entry, std::string_view key, const std::string& run) {
     if (!runs.contains(run))
       entry.fail(key, fmt::format("no [[run]] has the id '{}'; there are: {}", run, fmt::join(runs, ", ")));
   };
-  if (const toml::array* rows = rows_of(root, "check", name))
-    for (std::size_t i = 0; i < rows->size(); ++i) {
-      const Entry entry(*rows->get(i)->as_table(), fmt::format("check[{}]", i + 1), name);
-      for (Check& check : read_check(entry)) {
-        require_run(entry, "run", check.run);
-        if (check.parameters.against) require_run(entry, "against", *check.parameters.against);
-        if (!checks.insert(check.id).second)
-          entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
-        table.checks.push_back(std::move(check));
-      }
+  for (const TomlEntry& entry : top.entries("check"))
+    for (Check& check : read_check(entry)) {
+      require_run(entry, "run", check.run);
+      if (check.parameters.against) require_run(entry, "against", *check.parameters.against);
+      if (!checks.insert(check.id).second)
+        entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
+      table.checks.push_back(std::move(check));
     }
   return table;
 }

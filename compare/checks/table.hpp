@@ -2,18 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string_view>
 
 #include "compare/checks/check.hpp"
+#include "compare/input/table_error.hpp"
 
 namespace granvof::compare {
-
-// Bad input; what() is one line: "<file>:<line>: <key>: what was given, what is allowed".
-class TableError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 // Throws TableError for anything unknown, missing, doubled or out of range: metrics, formulas, parameters and
 // units are checked against the registry, runs against the [[run]] entries.

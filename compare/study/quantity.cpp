@@ -1,0 +1,130 @@
+#include "compare/study/quantity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "compare/input/curves.hpp"
+#include "compare/metrics/run_out.hpp"
+
+namespace granvof::compare {
+namespace {
+
+Curve solid_height(const Run& run) {
+  return run.curve("y_solid_mean");
+}
+
+Curve front(const Run& run) {
+  return run.curve("front_dense");
+}
+
+constexpr std::array curves{
+    CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve},
+    CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front},
+    CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height},
+    CurveEntry{"liquid_front", "tau", "-", "x / a of the water front against t sqrt(2 g / a)",
+               scaled_liquid_front},
+};
+
+const CurveEntry* find_curve(std::string_view name) {
+  const auto* found =
+      std::find_if(curves.begin(), curves.end(), [&](const CurveEntry& e) { return e.name == name; });
+  return found == curves.end() ? nullptr : found;
+}
+
+bool complete(const Needs& needs, const Parameters& p) {
+  return (!needs.window || p.window) && (!needs.at || p.at) && (!needs.quiet || p.quiet) &&
+         (!needs.level || p.level) && (!needs.published || (p.published && p.column)) &&
+         (!needs.against || p.against);
+}
+
+std::string allowed() {
+  std::vector<std::string_view> names;
+  for (const CurveEntry& entry : curves) names.push_back(entry.name);
+  for (const MetricEntry& entry : metrics()) names.push_back(entry.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::span<const CurveEntry> curve_table() {
+  return curves;
+}
+
+std::string Quantity::label() const {
+  return parameters.at ? fmt::format("{}@{:g}", name, *parameters.at) : name;
+}
+
+Quantity parse_quantity(std::string_view text, std::optional<Window> window, std::span<const Check> fallback) {
+  Quantity quantity;
+  const auto at = text.find('@');
+  quantity.name = text.substr(0, at);
+  quantity.parameters.window = window;
+  if (at != std::string_view::npos) {
+    const std::string_view number = text.substr(at + 1);
+    double value = 0.0;
+    const auto parsed = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (parsed.ec != std::errc() || parsed.ptr != number.data() + number.size() || !std::isfinite(value))
+      throw std::invalid_argument(fmt::format("'{}' given; expected NAME or NAME@NUMBER", text));
+    quantity.parameters.at = value;
+  }
+  const MetricEntry* metric = find_metric(quantity.name);
+  if (metric && metric->needs.at == quantity.parameters.at.has_value()) {
+    if (complete(metric->needs, quantity.parameters)) return quantity;
+    for (const Check& check : fallback)
+      if (check.metric == quantity.name && (!metric->needs.at || check.parameters.at == quantity.parameters.at)) {
+        quantity.parameters = check.parameters;
+        if (window) quantity.parameters.window = window;
+        return quantity;
+      }
+  }
+  if (!quantity.parameters.at && find_curve(quantity.name)) {
+    quantity.is_curve = true;
+    return quantity;
+  }
+  if (!metric) throw std::invalid_argument(fmt::format("'{}' given; allowed: {}", text, allowed()));
+  throw std::invalid_argument(fmt::format(
+      "'{}' lacks a parameter of that metric, and the table of checks has no row of the scene to take it from; "
+      "give NAME@AT or a window",
+      text));
+}
+
+Observed observe(const Quantity& quantity, const Run& run) {
+  Observed observed;
+  if (quantity.is_curve) {
+    observed.curve = find_curve(quantity.name)->function(run);
+    if (observed.curve.empty()) observed.note = fmt::format("undefined: the run has no {}", quantity.name);
+    return observed;
+  }
+  const FindRun none = [](std::string_view) -> const Run* { return nullptr; };
+  const Measured measured = find_metric(quantity.name)->function(run, quantity.parameters, none);
+  observed.note = measured.note;
+  if (measured.value && std::isfinite(*measured.value)) observed.value = measured.value;
+  return observed;
+}
+
+std::optional<double> relative_distance(const Quantity& quantity, const Observed& a, const Observed& b) {
+  if (!a.defined() || !b.defined()) return std::nullopt;
+  if (!quantity.is_curve) {
+    if (*b.value == 0.0) return std::nullopt;
+    return std::abs(*a.value - *b.value) / std::abs(*b.value);
+  }
+  const Window common{std::max(a.curve.time.front(), b.curve.time.front()),
+                      std::min(a.curve.time.back(), b.curve.time.back())};
+  const Window window = quantity.parameters.window.value_or(common);
+  if (!(window.begin < window.end)) return std::nullopt;
+  const Curve seen = clip(b.curve, window);
+  const auto high = maximum(seen);
+  const auto low = minimum(seen);
+  const auto distance = rms_distance(a.curve, b.curve, window);
+  if (!distance || !high || *high <= *low) return std::nullopt;
+  return *distance / (*high - *low);
+}
+
+}  // namespace granvof::compare

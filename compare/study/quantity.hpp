@@ -1,0 +1,54 @@
+// What a study looks at: one metric with its parameters, or one curve, and the error of either.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "compare/checks/check.hpp"
+#include "compare/checks/registry.hpp"
+#include "compare/input/run.hpp"
+
+namespace granvof::compare {
+
+// A curve that can be asked for by name.
+struct CurveEntry {
+  std::string_view name;
+  std::string_view abscissa;
+  std::string_view unit;
+  std::string_view description;
+  Curve (*function)(const Run&);
+};
+
+std::span<const CurveEntry> curve_table();
+
+struct Quantity {
+  std::string name;        // of the metric or curve
+  Parameters parameters;   // window: of the curve, or as the metric takes it
+  bool is_curve = false;
+  // "run_out@10"
+  std::string label() const;
+};
+
+// From "NAME" or "NAME@AT": a metric where the registry has NAME and all it needs is given, else a curve.
+// Where a metric still lacks a parameter, `fallback` (the rows of the table of checks of that scene) is asked.
+// Throws std::invalid_argument, saying what is allowed.
+Quantity parse_quantity(std::string_view text, std::optional<Window> window,
+                        std::span<const Check> fallback = {});
+
+struct Observed {
+  std::optional<double> value;  // of a metric
+  Curve curve;                  // of a curve
+  std::string note;             // why there is neither
+  bool defined() const { return value.has_value() || !curve.empty(); }
+};
+
+Observed observe(const Quantity& quantity, const Run& run);
+
+// Relative distance [-], >= 0: |a - b| / |b| of values; of curves the rms of the difference over the window
+// (default: the part of the abscissa that both cover), over the range of b in it. Nothing where one is
+// undefined, does not cover the window, or b's magnitude or range is 0.
+std::optional<double> relative_distance(const Quantity& quantity, const Observed& a, const Observed& b);
+
+}  // namespace granvof::compare

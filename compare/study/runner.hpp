@@ -1,0 +1,70 @@
+// Runs of one case under overrides, made by the program granvof and kept for later.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/input/run.hpp"
+
+namespace granvof::compare {
+
+struct Job {
+  std::filesystem::path case_file;
+  std::vector<std::string> set;  // overrides "key=value"
+};
+
+// How a job ended. With `run` it finished and can be measured; without, `failure` says why not.
+struct Outcome {
+  std::optional<Run> run;
+  std::string failure;
+  bool refused = false;            // the case itself was refused: no run was started
+  std::optional<RunFacts> facts;   // where run.json could be read
+  double core_seconds = 0.0;       // CPU time of the time loop, the least of `repeats`, without start-up and output
+  double simulated_seconds = 0.0;  // how far it came
+  double work_unit_seconds = 0.0;  // of the calibration kernel, timed before and after (mean)
+  int repeats = 0;
+  bool kept = false;  // taken from the cache
+
+  // [core-s per simulated s]; 0 where nothing was simulated.
+  double cost() const { return simulated_seconds > 0.0 ? core_seconds / simulated_seconds : 0.0; }
+  // Work units per simulated second.
+  double work() const { return work_unit_seconds > 0.0 ? cost() / work_unit_seconds : 0.0; }
+};
+
+class Runner {
+ public:
+  virtual ~Runner() = default;
+  virtual Outcome run(const Job& job) = 0;
+};
+
+struct RunnerOptions {
+  std::filesystem::path program;  // granvof
+  std::filesystem::path cache;    // run directories, one a job, below CACHE/SCENE/
+  double timeout = 3600.0;        // wall-clock seconds after which a run is ended and counts as failed
+  double repeat_below = 2.0;      // runs cheaper than this [core-s] are timed three times
+  bool any_version = false;       // also take what another version of the program, or of the case, left for the
+                                  // same case and overrides; what is shown names that version
+  bool progress = true;           // a line on stderr for every run that is made
+};
+
+// A job is identified by its resolved case and the version of the program (and, of a version with uncommitted
+// changes, by the program file's time); a run that ended, well or not, is not made again. Throws
+// std::runtime_error where the program cannot be started.
+class CachedRunner : public Runner {
+ public:
+  explicit CachedRunner(RunnerOptions options);
+  Outcome run(const Job& job) override;
+  const std::string& version() const { return version_; }
+
+ private:
+  std::optional<Outcome> kept(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;
+  Outcome make(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;
+
+  RunnerOptions options_;
+  std::string version_;   // as `granvof --version` states it
+  std::string identity_;  // of the program: its version, and its time where that is not enough
+};
+
+}  // namespace granvof::compare

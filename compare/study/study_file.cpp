@@ -1,0 +1,146 @@
+#include "compare/study/study_file.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <stdexcept>
+
+#include "compare/checks/theory.hpp"
+#include "compare/input/toml_entry.hpp"
+
+namespace granvof::compare {
+namespace {
+
+Method read_method(const TomlEntry& entry) {
+  entry.allow_only({"name", "set", "about"});
+  Method method;
+  method.name = entry.text("name");
+  if (entry.has("set")) method.set = entry.assignments("set");
+  if (entry.has("about")) method.about = entry.text("about");
+  return method;
+}
+
+Part read_part(const TomlEntry& entry) {
+  entry.allow_only({"name", "set", "form", "about"});
+  Part part;
+  part.name = entry.text("name");
+  if (entry.has("set") == entry.has("form")) entry.fail("", "give one of 'set' and 'form'");
+  if (entry.has("set")) part.set = entry.assignments("set");
+  if (entry.has("form")) part.form = entry.one_of("form", {Form::rigid_lid, Form::two_dimensions});
+  if (entry.has("about")) part.about = entry.text("about");
+  return part;
+}
+
+Panel read_panel(const TomlEntry& entry, const Chart& chart, const std::vector<Method>& methods) {
+  entry.allow_only({"quantity", "window", "against", "method", "record", "formula", "published", "column"});
+  Panel panel;
+  std::optional<Window> window;
+  if (entry.has("window")) window = entry.window("window");
+  try {
+    panel.quantity = parse_quantity(entry.text("quantity"), window);
+  } catch (const std::invalid_argument& error) {
+    entry.fail("quantity", error.what());
+  }
+  panel.against =
+      entry.one_of("against", {Against::finest, Against::dem, Against::theory, Against::published});
+  const auto only = [&](std::string_view key, Against kind) {
+    if (entry.has(key) && panel.against != kind)
+      entry.fail(key, fmt::format("only against = \"{}\" has it", name_of(kind)));
+    return panel.against == kind;
+  };
+  if (only("method", Against::finest)) {
+    panel.method = entry.has("method") ? entry.text("method") : methods.front().name;
+    if (std::none_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == panel.method; }))
+      entry.fail("method", fmt::format("no [[method]] has the name '{}'", panel.method));
+  }
+  if (only("record", Against::dem)) panel.record = entry.has("record") ? entry.text("record") : chart.case_name;
+  if (only("formula", Against::theory)) {
+    panel.formula = entry.text("formula");
+    if (panel.quantity.is_curve) entry.fail("formula", "a formula is the reference of a metric, not of a curve");
+    if (!find_formula(panel.formula)) entry.fail("formula", fmt::format("'{}' given; see checks/theory.cpp", panel.formula));
+  }
+  only("column", Against::published);
+  if (only("published", Against::published)) {
+    panel.published = entry.text("published");
+    panel.column = entry.text("column");
+    if (!panel.quantity.is_curve) entry.fail("published", "a published series is the reference of a curve");
+  }
+  return panel;
+}
+
+Chart read_chart(const TomlEntry& entry, const std::vector<Method>& methods) {
+  entry.allow_only({"case", "grids", "set", "down_to", "panel"});
+  Chart chart;
+  chart.case_name = entry.text("case");
+  chart.grids = entry.positives("grids");
+  if (!std::is_sorted(chart.grids.begin(), chart.grids.end(), std::greater_equal<>()))
+    entry.fail("grids", "expected cell sizes from large to small, each once");
+  if (chart.grids.size() < 2) entry.fail("grids", "a line needs two cell sizes or more");
+  if (entry.has("set")) chart.set = entry.assignments("set");
+  chart.down_to = entry.has("down_to") ? entry.positive("down_to") : chart.grids.back();
+  for (const TomlEntry& panel : entry.entries("panel")) chart.panels.push_back(read_panel(panel, chart, methods));
+  if (chart.panels.empty()) entry.fail("", "a chart needs a [[chart.panel]]");
+  return chart;
+}
+
+Study read_root(const toml::table& root, std::string_view name) {
+  const TomlEntry top(root, "study", name);
+  top.allow_only({"method", "part", "chart"});
+  Study study;
+  std::set<std::string> methods, parts, charts;
+  for (const TomlEntry& entry : top.entries("method")) {
+    study.methods.push_back(read_method(entry));
+    if (!methods.insert(study.methods.back().name).second)
+      entry.fail("name", fmt::format("'{}' is given twice", study.methods.back().name));
+  }
+  if (study.methods.empty()) top.fail("", "there is no [[method]]");
+  for (const TomlEntry& entry : top.entries("part")) {
+    study.parts.push_back(read_part(entry));
+    if (!parts.insert(study.parts.back().name).second)
+      entry.fail("name", fmt::format("'{}' is given twice", study.parts.back().name));
+  }
+  for (const TomlEntry& entry : top.entries("chart")) {
+    study.charts.push_back(read_chart(entry, study.methods));
+    if (!charts.insert(study.charts.back().case_name).second)
+      entry.fail("case", fmt::format("'{}' has two charts", study.charts.back().case_name));
+  }
+  return study;
+}
+
+}  // namespace
+
+std::string_view name_of(Form form) {
+  return form == Form::rigid_lid ? "rigid lid" : "two dimensions";
+}
+
+std::string_view name_of(Against against) {
+  switch (against) {
+    case Against::finest:
+      return "finest";
+    case Against::dem:
+      return "DEM";
+    case Against::theory:
+      return "theory";
+    case Against::published:
+      return "published";
+  }
+  return "finest";
+}
+
+Study parse_study(std::string_view text, std::string_view name) {
+  try {
+    return read_root(toml::parse(text, name), name);
+  } catch (const toml::parse_error& error) {
+    throw TableError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+}
+
+Study read_study(const std::filesystem::path& file) {
+  try {
+    return read_root(toml::parse_file(file.string()), file.string());
+  } catch (const toml::parse_error& error) {
+    throw TableError(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
+  }
+}
+
+}  // namespace granvof::compare

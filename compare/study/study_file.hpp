@@ -1,0 +1,62 @@
+// Reads compare/study.toml: methods, model parts and charts, as data. Its head describes the format.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/study/quantity.hpp"
+
+namespace granvof::compare {
+
+struct Method {
+  std::string name;
+  std::vector<std::string> set;  // overrides "key=value"; empty: the case as it is
+  std::string about;
+};
+
+// Overrides that depend on the scene.
+enum class Form { rigid_lid, two_dimensions };
+
+struct Part {
+  std::string name;
+  std::vector<std::string> set;
+  std::optional<Form> form;  // instead of `set`
+  std::string about;
+};
+
+enum class Against { finest, dem, theory, published };
+
+struct Panel {
+  Quantity quantity;
+  Against against = Against::finest;
+  std::string method;   // finest: whose run on the smallest cell is the reference
+  std::string record;   // dem: name in reference/results
+  std::string formula;  // theory: name in checks/theory.hpp
+  std::string published, column;
+};
+
+struct Chart {
+  std::string case_name;
+  std::vector<double> grids;     // cell sizes [m], descending
+  std::vector<std::string> set;  // of all runs
+  double down_to = 0.0;          // smallest cell of the methods that are no reference [m]
+  std::vector<Panel> panels;
+};
+
+struct Study {
+  std::vector<Method> methods;
+  std::vector<Part> parts;
+  std::vector<Chart> charts;
+};
+
+std::string_view name_of(Form form);
+std::string_view name_of(Against against);
+
+// Throw TableError, as checks/table.hpp does; `name` stands for the file in messages.
+Study read_study(const std::filesystem::path& file);
+Study parse_study(std::string_view text, std::string_view name);
+
+}  // namespace granvof::compare
