@@ -1,7 +1,7 @@
 # A thin front for CMake's presets and the scripts in ci/, compare/ and reference/. `make help` lists the targets.
 #
 # REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is reported as `not run`)
-# VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference)
+# VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
 # LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
@@ -21,7 +21,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build verify test reference plots nightly bench format tidy sanitize
+.PHONY: help setup build verify test reference plots charts nightly bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -51,6 +51,11 @@ reference: setup  ## run and record the DEM-VOF reference where missing or stale
 plots: setup  ## plots and report from existing results, without running anything
 	$(call need,compare/verify)
 	compare/verify --plots-only --build-dir $(RELEASE) --out $(OUT)
+
+charts: setup  ## error against cost of every method (compare/study.toml): runs what is missing, draws (SCENE=s1: one)
+	ci/build --programs release
+	$(RELEASE)/compare/granvof-compare charts --cache $(OUT)/study --out $(OUT)/charts $(if $(SCENE),--scene $(SCENE))
+	$(PYTHON) compare/report/charts.py --charts $(OUT)/charts
 
 nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)

@@ -1,5 +1,5 @@
-// granvof-compare: judges runs by the table of checks. Exit code 0: nothing unexpected; 1: an unexpected
-// verdict; 2: bad input.
+// granvof-compare: judges runs by the table of checks, and studies what a scene needs. Exit code 0: nothing
+// unexpected; 1: an unexpected verdict; 2: bad input.
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -12,6 +12,7 @@
 #include "compare/checks/table.hpp"
 #include "compare/lay/lay.hpp"
 #include "compare/output/write.hpp"
+#include "compare/program/study_commands.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
@@ -107,7 +108,7 @@ void add_common(CLI::App& command, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Judges runs by the table of checks"};
+  CLI::App app{"Judges runs by the table of checks, and studies what a scene needs"};
   app.require_subcommand(1);
   Options options;
 
@@ -150,6 +151,8 @@ int main(int argc, char** argv) {
   extract->add_option("--set", laid.set, "overrides of the case")->allow_extra_args(false);
   extract->add_option("--out", laid.out, "the series.csv")->required();
 
+  StudyCommands study(app);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -157,6 +160,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (*extract) return extract_series(laid, options.paths);
+    if (study.parsed()) return study.run();
     if (*lay_command) return lay_beside(laid, options.paths);
     return *plan ? print_plan(options) : check_runs(options);
   } catch (const std::exception& error) {

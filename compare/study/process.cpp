@@ -1,9 +1,9 @@
 #include "compare/study/process.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <chrono>
 #include <stdexcept>
 #include <thread>
 

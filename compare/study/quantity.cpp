@@ -61,7 +61,8 @@ std::string Quantity::label() const {
   return parameters.at ? fmt::format("{}@{:g}", name, *parameters.at) : name;
 }
 
-Quantity parse_quantity(std::string_view text, std::optional<Window> window, std::span<const Check> fallback) {
+Quantity parse_quantity(std::string_view text, std::optional<Window> window,
+                        std::span<const Check> fallback) {
   Quantity quantity;
   const auto at = text.find('@');
   quantity.name = text.substr(0, at);
@@ -78,7 +79,8 @@ Quantity parse_quantity(std::string_view text, std::optional<Window> window, std
   if (metric && metric->needs.at == quantity.parameters.at.has_value()) {
     if (complete(metric->needs, quantity.parameters)) return quantity;
     for (const Check& check : fallback)
-      if (check.metric == quantity.name && (!metric->needs.at || check.parameters.at == quantity.parameters.at)) {
+      if (check.metric == quantity.name &&
+          (!metric->needs.at || check.parameters.at == quantity.parameters.at)) {
         quantity.parameters = check.parameters;
         if (window) quantity.parameters.window = window;
         return quantity;
@@ -89,10 +91,11 @@ Quantity parse_quantity(std::string_view text, std::optional<Window> window, std
     return quantity;
   }
   if (!metric) throw std::invalid_argument(fmt::format("'{}' given; allowed: {}", text, allowed()));
-  throw std::invalid_argument(fmt::format(
-      "'{}' lacks a parameter of that metric, and the table of checks has no row of the scene to take it from; "
-      "give NAME@AT or a window",
-      text));
+  throw std::invalid_argument(
+      fmt::format("'{}' lacks a parameter of that metric, and the table of checks has no row of the scene to "
+                  "take it from; "
+                  "give NAME@AT or a window",
+                  text));
 }
 
 Observed observe(const Quantity& quantity, const Run& run) {

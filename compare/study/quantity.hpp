@@ -24,16 +24,16 @@ struct CurveEntry {
 std::span<const CurveEntry> curve_table();
 
 struct Quantity {
-  std::string name;        // of the metric or curve
-  Parameters parameters;   // window: of the curve, or as the metric takes it
+  std::string name;       // of the metric or curve
+  Parameters parameters;  // window: of the curve, or as the metric takes it
   bool is_curve = false;
   // "run_out@10"
   std::string label() const;
 };
 
 // From "NAME" or "NAME@AT": a metric where the registry has NAME and all it needs is given, else a curve.
-// Where a metric still lacks a parameter, `fallback` (the rows of the table of checks of that scene) is asked.
-// Throws std::invalid_argument, saying what is allowed.
+// Where a metric still lacks a parameter, `fallback` (the rows of the table of checks of that scene) is
+// asked. Throws std::invalid_argument, saying what is allowed.
 Quantity parse_quantity(std::string_view text, std::optional<Window> window,
                         std::span<const Check> fallback = {});
 

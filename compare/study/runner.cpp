@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* note_file = "study.json";  // beside run.json: what the run was made for, and its costs
 constexpr int timings = 3;
+constexpr int bad_input = 2;  // exit code of granvof
 
 // FNV-1a: names a directory; what is in it is checked against the resolved case itself.
 std::string short_hash(const std::string& text) {
@@ -73,8 +74,7 @@ Outcome outcome_of(const fs::path& directory, const nlohmann::json& note, const 
 
 CachedRunner::CachedRunner(RunnerOptions options) : options_(std::move(options)) {
   if (!fs::exists(options_.program))
-    throw std::runtime_error(
-        fmt::format("{} is missing; `make build` builds it", options_.program.string()));
+    throw std::runtime_error(fmt::format("{} is missing; `make build` builds it", options_.program.string()));
   fs::create_directories(options_.cache);
   const fs::path log = options_.cache / "version.txt";
   if (run_program({options_.program.string(), "--version"}, log, 60.0).code != 0)
@@ -86,7 +86,8 @@ CachedRunner::CachedRunner(RunnerOptions options) : options_(std::move(options))
                              fs::last_write_time(options_.program).time_since_epoch().count());
 }
 
-std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene, const fs::path& directory) const {
+std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene,
+                                          const fs::path& directory) const {
   if (const auto note = read_note(directory)) return outcome_of(directory, *note, scene);
   if (!options_.any_version) return std::nullopt;
   std::vector<std::pair<fs::file_time_type, fs::path>> earlier;
@@ -107,30 +108,34 @@ std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene, co
 
 Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& directory) const {
   fs::remove_all(directory);
-  fs::create_directories(directory);
-  std::vector<std::string> command{options_.program.string(), "run", job.case_file.string(), "--threads", "1",
-                                   "--out", directory.string()};
+  fs::create_directories(directory.parent_path());
+  const fs::path log = directory.string() + ".log";
+  std::vector<std::string> command{
+      options_.program.string(), "run", job.case_file.string(), "--threads", "1", "--out",
+      directory.string()};
   for (const std::string& assignment : job.set) {
     command.emplace_back("--set");
     command.push_back(assignment);
   }
-  if (options_.progress)
-    fmt::print(stderr, "running {} {} ...", scene.name, fmt::join(job.set, " "));
+  if (options_.progress) fmt::print(stderr, "running {} {} ...", scene.name, fmt::join(job.set, " "));
   nlohmann::json note{{"case", scene.name}, {"set", job.set}, {"version", version_}};
   std::vector<double> costs, units;
   std::string failure;
   do {
     units.push_back(work_unit_seconds());
-    const Ended ended = run_program(command, directory / "log.txt", options_.timeout);
+    const Ended ended = run_program(command, log, options_.timeout);
     units.push_back(work_unit_seconds());
     if (ended.timed_out)
       failure = fmt::format("ended after {:g} s of wall-clock time", options_.timeout);
+    else if (ended.code == bad_input)  // nothing was run, and the case is not what is wrong
+      throw std::runtime_error(last_line(log));
     else if (ended.code != 0)
-      failure = fmt::format("exit code {}: {}", ended.code, last_line(directory / "log.txt"));
+      failure = fmt::format("exit code {}: {}", ended.code, last_line(log));
     std::optional<double> spent;
     if (fs::exists(directory / "run.json")) spent = read_facts(directory / "run.json").number("core_seconds");
     costs.push_back(spent.value_or(0.0));
-  } while (failure.empty() && static_cast<int>(costs.size()) < timings && costs.back() < options_.repeat_below);
+  } while (failure.empty() && static_cast<int>(costs.size()) < timings &&
+           costs.back() < options_.repeat_below);
   double sum = 0.0;
   for (const double unit : units) sum += unit;
   note["failure"] = failure;
@@ -140,7 +145,8 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
   write_file_atomically(directory / note_file, note.dump(1) + "\n");
   Outcome outcome = outcome_of(directory, note, scene);
   if (options_.progress)
-    fmt::print(stderr, " {:.3g} core-s{}\n", outcome.core_seconds, failure.empty() ? "" : ", FAILED: " + failure);
+    fmt::print(stderr, " {:.3g} core-s{}\n", outcome.core_seconds,
+               failure.empty() ? "" : ", FAILED: " + failure);
   return outcome;
 }
 
@@ -154,8 +160,7 @@ Outcome CachedRunner::run(const Job& job) {
     refused.refused = true;
     return refused;
   }
-  const fs::path directory =
-      options_.cache / scene.name / short_hash(scene.resolved + "\n" + identity_);
+  const fs::path directory = options_.cache / scene.name / short_hash(scene.resolved + "\n" + identity_);
   if (auto found = kept(job, scene, directory)) {
     found->kept = true;
     return *found;

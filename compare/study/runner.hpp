@@ -19,9 +19,10 @@ struct Job {
 struct Outcome {
   std::optional<Run> run;
   std::string failure;
-  bool refused = false;            // the case itself was refused: no run was started
-  std::optional<RunFacts> facts;   // where run.json could be read
-  double core_seconds = 0.0;       // CPU time of the time loop, the least of `repeats`, without start-up and output
+  bool refused = false;           // the case itself was refused: no run was started
+  std::optional<RunFacts> facts;  // where run.json could be read
+  double core_seconds =
+      0.0;  // CPU time of the time loop, the least of `repeats`, without start-up and output
   double simulated_seconds = 0.0;  // how far it came
   double work_unit_seconds = 0.0;  // of the calibration kernel, timed before and after (mean)
   int repeats = 0;
@@ -44,9 +45,9 @@ struct RunnerOptions {
   std::filesystem::path cache;    // run directories, one a job, below CACHE/SCENE/
   double timeout = 3600.0;        // wall-clock seconds after which a run is ended and counts as failed
   double repeat_below = 2.0;      // runs cheaper than this [core-s] are timed three times
-  bool any_version = false;       // also take what another version of the program, or of the case, left for the
-                                  // same case and overrides; what is shown names that version
-  bool progress = true;           // a line on stderr for every run that is made
+  bool any_version = false;  // also take what another version of the program, or of the case, left for the
+                             // same case and overrides; what is shown names that version
+  bool progress = true;      // a line on stderr for every run that is made
 };
 
 // A job is identified by its resolved case and the version of the program (and, of a version with uncommitted
@@ -59,7 +60,8 @@ class CachedRunner : public Runner {
   const std::string& version() const { return version_; }
 
  private:
-  std::optional<Outcome> kept(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;
+  std::optional<Outcome> kept(const Job& job, const Scene& scene,
+                              const std::filesystem::path& directory) const;
   Outcome make(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;
 
   RunnerOptions options_;

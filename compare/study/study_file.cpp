@@ -53,11 +53,14 @@ Panel read_panel(const TomlEntry& entry, const Chart& chart, const std::vector<M
     if (std::none_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == panel.method; }))
       entry.fail("method", fmt::format("no [[method]] has the name '{}'", panel.method));
   }
-  if (only("record", Against::dem)) panel.record = entry.has("record") ? entry.text("record") : chart.case_name;
+  if (only("record", Against::dem))
+    panel.record = entry.has("record") ? entry.text("record") : chart.case_name;
   if (only("formula", Against::theory)) {
     panel.formula = entry.text("formula");
-    if (panel.quantity.is_curve) entry.fail("formula", "a formula is the reference of a metric, not of a curve");
-    if (!find_formula(panel.formula)) entry.fail("formula", fmt::format("'{}' given; see checks/theory.cpp", panel.formula));
+    if (panel.quantity.is_curve)
+      entry.fail("formula", "a formula is the reference of a metric, not of a curve");
+    if (!find_formula(panel.formula))
+      entry.fail("formula", fmt::format("'{}' given; see checks/theory.cpp", panel.formula));
   }
   only("column", Against::published);
   if (only("published", Against::published)) {
@@ -78,7 +81,8 @@ Chart read_chart(const TomlEntry& entry, const std::vector<Method>& methods) {
   if (chart.grids.size() < 2) entry.fail("grids", "a line needs two cell sizes or more");
   if (entry.has("set")) chart.set = entry.assignments("set");
   chart.down_to = entry.has("down_to") ? entry.positive("down_to") : chart.grids.back();
-  for (const TomlEntry& panel : entry.entries("panel")) chart.panels.push_back(read_panel(panel, chart, methods));
+  for (const TomlEntry& panel : entry.entries("panel"))
+    chart.panels.push_back(read_panel(panel, chart, methods));
   if (chart.panels.empty()) entry.fail("", "a chart needs a [[chart.panel]]");
   return chart;
 }

@@ -1,7 +1,6 @@
 #include "compare/study/work_unit.hpp"
 
 #include <ctime>
-
 #include <stdexcept>
 #include <vector>
 

@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""Error against cost, one picture a scene, from charts.json of `granvof-compare charts`; runs nothing.
+
+Also reads the ablations (ablate.json of `granvof-compare ablate`) for the page.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from report import style  # noqa: E402
+from report.style import plt  # noqa: E402
+
+LOWEST = 1e-4  # relative; an error below it is drawn there
+
+
+def load(directory):
+    """Content of charts.json; None where there is none."""
+    path = Path(directory) / "charts.json"
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+def ablations(directory):
+    """What `granvof-compare ablate` left below `directory`, one entry a scene, in the order of their names."""
+    return [json.loads(path.read_text()) for path in sorted(Path(directory).glob("*/ablate.json"))]
+
+
+def look(methods):
+    """Colour, marker and line of each method, the same in all charts."""
+    return {method["name"]: {"color": style.CYCLE[i % len(style.CYCLE)], "marker": style.MARKERS[i % len(style.MARKERS)],
+                             "linestyle": style.LINES[i % len(style.LINES)]} for i, method in enumerate(methods)}
+
+
+def draw(chart, methods, directory):
+    """Writes error-cost-CASE.{png,pdf} and gives its name back; None if no panel has a reference."""
+    panels = [panel for panel in chart["panels"] if panel["defined"] and any(error is not None for error in panel["errors"])]
+    if not panels:
+        return None
+    figure, axes = plt.subplots(1, len(panels), squeeze=False, figsize=(4.4 * len(panels) + 2.2, 4.2))
+    for axis, panel in zip(axes[0], panels):
+        draw_panel(axis, chart, panel, look(methods))
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    for axis in axes[0][1:]:
+        for handle, label in zip(*axis.get_legend_handles_labels()):
+            if label not in labels:
+                handles.append(handle)
+                labels.append(label)
+    axes[0][-1].legend(handles, labels, loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=7.5)
+    style.stamp(figure, stamps(chart))
+    return style.save(figure, directory, f"error-cost-{chart['case']}")
+
+
+def draw_panel(axis, chart, panel, looks):
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    drawn = [max(error, LOWEST) for error in panel["errors"] if error is not None]
+    for name, how in looks.items():
+        shown = sorted((point["core_s_per_s"], max(error, LOWEST), point["cell"])
+                       for point, error in zip(chart["points"], panel["errors"])
+                       if point["method"] == name and error is not None and point["core_s_per_s"] > 0)
+        if not shown:
+            continue
+        axis.plot([x for x, _, _ in shown], [y for _, y, _ in shown], label=name, markersize=5, linewidth=1.3, **how)
+        for x, y, cell in shown:
+            axis.annotate(f"{1e3 * cell:.3g}", (x, y), textcoords="offset points", xytext=(4, 4), fontsize=6, color=how["color"])
+    draw_front(axis, chart, panel)
+    draw_failed(axis, chart, looks, 1.6 * max(drawn))
+    if panel["floor"] > 0:
+        axis.axhspan(axis.get_ylim()[0] / 10, panel["floor"], color="0.85", zorder=0,
+                     label="inside the reference's own uncertainty")
+        axis.set_ylim(bottom=0.5 * min(min(drawn), panel["floor"]))
+    if chart["dem_cost"]:
+        axis.axvline(chart["dem_cost"], color=style.DEM, linewidth=1.2, linestyle=":", label="cost of DEM-VOF")
+    axis.set_title(f"{chart['case']}: {panel['quantity'].replace('_', ' ')} against {panel['against']}", loc="left", fontsize=9)
+    axis.set_ylabel("relative error [-]")
+    axis.set_xlabel("cost [core-s per simulated s]")
+    add_work_units(axis, chart)
+
+
+def draw_front(axis, chart, panel):
+    front = [(chart["points"][i]["core_s_per_s"], max(panel["errors"][i], LOWEST)) for i in panel["pareto"]]
+    if front:
+        axis.plot([x for x, _ in front], [y for _, y in front], color=style.BLACK, linewidth=0.8, linestyle="-", alpha=0.5,
+                  marker="o", markersize=11, markerfacecolor="none", markeredgewidth=0.8, label="Pareto front (labels: cell [mm])")
+
+
+def draw_failed(axis, chart, looks, height):
+    """Runs that failed, at the cost they had come to, above all errors."""
+    costs = [point["core_s_per_s"] for point in chart["points"] if point["core_s_per_s"] > 0]
+    for point in chart["points"]:
+        if point["failure"]:
+            cost = point["core_s_per_s"] or min(costs, default=1.0)
+            axis.plot([cost], [height], linestyle="none", marker="X", markersize=9, color=looks[point["method"]]["color"],
+                      label=style_once(axis, "failed"))
+            axis.annotate(f"{1e3 * point['cell']:.3g}", (cost, height), textcoords="offset points", xytext=(5, 4), fontsize=6)
+
+
+def style_once(axis, label):
+    return None if label in axis.get_legend_handles_labels()[1] else label
+
+
+def add_work_units(axis, chart):
+    """A second scale on top: the same cost in work units, by the kernel timed beside the runs (median)."""
+    units = sorted(point["core_s_per_s"] / point["work_units_per_s"] for point in chart["points"] if point["work_units_per_s"] > 0)
+    if not units:
+        return
+    unit = units[len(units) // 2]
+    second = axis.secondary_xaxis("top", functions=(lambda x: x / unit, lambda x: x * unit))
+    second.set_xlabel("work units per simulated s", fontsize=7)
+    second.tick_params(labelsize=6)
+
+
+def stamps(chart):
+    """One entry a version and case: what a plot is stamped with."""
+    found = {}
+    for point in chart["points"]:
+        if point["case_hash"]:
+            key = (point["version"], point["case_hash"], point["host"])
+            found.setdefault(key, {"id": chart["case"], "version": point["version"], "case_hash": point["case_hash"],
+                                   "host": point["host"]})
+    return list(found.values())
+
+
+def draw_all(content, directory):
+    """Names of the pictures, in the order of the charts."""
+    names = (draw(chart, content["methods"], directory) for chart in content["charts"])
+    return [name for name in names if name]
+
+
+def caption(name):
+    return (f"{name.removeprefix('error-cost-')}: error against cost; points are grids, circles the Pareto front; grey: inside the "
+            "reference's own uncertainty.")
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--charts", type=Path, required=True, help="directory with charts.json")
+    parser.add_argument("--picture", type=Path, help="write the picture of one scene here too (PNG, few bytes)")
+    parser.add_argument("--scene", default="s1", help="the scene of --picture (s1)")
+    options = parser.parse_args(arguments)
+    content = load(options.charts)
+    if content is None:
+        print(f"charts: no charts.json in {options.charts}; run `make charts` first", file=sys.stderr)
+        return 2
+    names = draw_all(content, options.charts / "plots")
+    for name in names:
+        print(options.charts / "plots" / f"{name}.png")
+    if options.picture:
+        name = f"error-cost-{options.scene}"
+        if name not in names:
+            print(f"charts: no chart of {options.scene} in {options.charts}", file=sys.stderr)
+            return 2
+        shrink(options.charts / "plots" / f"{name}.png", options.picture)
+    return 0
+
+
+def shrink(source, target):
+    """A copy in 64 colours, 900 pixels wide."""
+    from PIL import Image
+    image = Image.open(source).convert("RGB")
+    image = image.resize((900, round(image.height * 900 / image.width)), Image.LANCZOS)
+    image.quantize(64).save(target, optimize=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

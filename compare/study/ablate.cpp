@@ -1,0 +1,145 @@
+#include "compare/study/ablate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "compare/checks/registry.hpp"
+#include "compare/checks/theory.hpp"
+#include "compare/output/write.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+std::vector<std::string> rigid_lid(const Scene& scene) {
+  double level = 0.0;
+  for (const Box& box : scene.liquid_boxes) {
+    if (box.upper[0] - box.lower[0] < scene.tank[0] * (1.0 - 1e-9) || box.lower[1] > 0.0)
+      throw std::invalid_argument("the liquid does not fill the tank up to a level");
+    level = std::max(level, box.upper[1]);
+  }
+  if (level <= 0.0) throw std::invalid_argument("the scene has no liquid");
+  if (scene.bed && scene.bed->box.upper[1] > level * (1.0 + 1e-9))
+    throw std::invalid_argument("the bed reaches above the liquid");
+  const double rows = level / scene.grid.spacing[1];
+  if (std::abs(rows - std::round(rows)) > 1e-6)
+    throw std::invalid_argument(
+        fmt::format("the level {:g} m is no whole number of cells of {:g} m", level, scene.grid.spacing[1]));
+  const std::string depth = scene.dimensions == 3 ? fmt::format(", {:.12g}", scene.tank[2]) : "";
+  return {fmt::format("tank.size=[{:.12g}, {:.12g}{}]", scene.tank[0], level, depth), "walls.top=slip"};
+}
+
+std::vector<std::string> two_dimensions(const Scene& scene) {
+  if (scene.dimensions == 2) throw std::invalid_argument("the scene is in two dimensions already");
+  return {"scene.dimensions=2", fmt::format("tank.size=[{:.12g}, {:.12g}]", scene.tank[0], scene.tank[1])};
+}
+
+std::optional<double> bound_of(const Check& check, const Run& run) {
+  return check.reference.formula ? find_formula(*check.reference.formula)->function(run, check.parameters)
+                                 : check.reference.value;
+}
+
+bool inside(Relation relation, double value, double bound, double tolerance) {
+  return relation == Relation::at_most ? value <= bound + tolerance : value >= bound - tolerance;
+}
+
+std::optional<double> measure(const Check& check, const Run& run) {
+  const FindRun none = [](std::string_view) -> const Run* { return nullptr; };
+  const Measured measured = find_metric(check.metric)->function(run, check.parameters, none);
+  return measured.value && std::isfinite(*measured.value) ? measured.value : std::nullopt;
+}
+
+Effect effect_of(const AblatedMetric& metric, const Run& run) {
+  Effect effect;
+  const Check& check = metric.check;
+  effect.value = measure(check, run);
+  effect.tolerance = check.tolerance.value;
+  if (check.tolerance.relative) effect.tolerance *= std::abs(metric.full.value_or(0.0));
+  if (!effect.value || !metric.full) {
+    effect.beyond = effect.value.has_value() != metric.full.has_value();
+    return effect;
+  }
+  effect.change = *effect.value - *metric.full;
+  effect.beyond = std::abs(*effect.change) > effect.tolerance;
+  if (check.relation == Relation::equal) return effect;
+  if (const auto bound = bound_of(check, run))
+    effect.beyond = inside(check.relation, *effect.value, *bound, effect.tolerance) !=
+                    inside(check.relation, *metric.full, *bound, effect.tolerance);
+  return effect;
+}
+
+Ablation row_of(const std::string& name, const Outcome& outcome, const std::vector<AblatedMetric>& metrics) {
+  Ablation row;
+  row.name = name;
+  row.failure = outcome.failure;
+  row.applies = !outcome.refused;
+  row.cost = outcome.cost();
+  row.core_seconds = outcome.core_seconds;
+  row.work = outcome.work();
+  if (outcome.run)
+    for (const AblatedMetric& metric : metrics) row.effects.push_back(effect_of(metric, *outcome.run));
+  return row;
+}
+
+}  // namespace
+
+bool Ablation::dispensable() const {
+  return applies && failure.empty() &&
+         std::none_of(effects.begin(), effects.end(), [](const Effect& e) { return e.beyond; });
+}
+
+std::vector<std::string> overrides_of(const Part& part, const Scene& scene) {
+  if (!part.form) return part.set;
+  return *part.form == Form::rigid_lid ? rigid_lid(scene) : two_dimensions(scene);
+}
+
+std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene) {
+  std::vector<Check> chosen;
+  std::set<std::string> seen;
+  for (const Check& check : table.checks) {
+    if (check.run != scene || check.parameters.against || check.metric == "core_seconds") continue;
+    if (check.reference.kind == ReferenceKind::regression) continue;
+    if (seen.insert(metric_label(check)).second) chosen.push_back(check);
+  }
+  return chosen;
+}
+
+AblateReport ablate(const std::filesystem::path& case_file, const std::vector<std::string>& set,
+                    const std::vector<Part>& parts, const std::vector<Check>& checks, Runner& runner) {
+  if (checks.empty())
+    throw std::runtime_error(
+        fmt::format("{}: the table of checks has no metric of this scene", case_file.string()));
+  const Scene scene = load_scene(case_file, set);
+  const Outcome full = runner.run({case_file, set});
+  if (!full.run) throw std::runtime_error(fmt::format("{}: {}", scene.name, full.failure));
+
+  AblateReport report{scene.name, full.facts->version, full.facts->case_hash, full.facts->host, set, {}, {}};
+  if (!full.facts->commit.empty()) report.version += fmt::format(" ({})", full.facts->commit);
+  for (const Check& check : checks)
+    report.metrics.push_back(
+        {check, std::string(find_metric(check.metric)->unit), measure(check, *full.run)});
+  report.rows.push_back(row_of("full model", full, report.metrics));
+  report.rows.back().set = set;
+  for (const Part& part : parts) {
+    Ablation row;
+    std::vector<std::string> all = set;
+    try {
+      for (const std::string& assignment : overrides_of(part, scene)) all.push_back(assignment);
+      row = row_of(part.name, runner.run({case_file, all}), report.metrics);
+    } catch (const std::invalid_argument& error) {
+      row.name = part.name;
+      row.applies = false;
+      row.failure = error.what();
+    }
+    row.set = all;
+    row.about = part.about;
+    report.rows.push_back(std::move(row));
+  }
+  return report;
+}
+
+}  // namespace granvof::compare

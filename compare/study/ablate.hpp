@@ -1,0 +1,70 @@
+// What each part of the model does to every metric of a scene, and to its cost.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/checks/check.hpp"
+#include "compare/study/runner.hpp"
+#include "compare/study/study_file.hpp"
+
+namespace granvof::compare {
+
+// A metric of the scene in the full model, and what it is held to.
+struct AblatedMetric {
+  Check check;  // the row of the table of checks that names the metric and its tolerance
+  std::string unit;
+  std::optional<double> full;
+};
+
+// One metric without a part.
+struct Effect {
+  std::optional<double> value;
+  std::optional<double> change;  // value - full, metric's unit
+  double tolerance = 0.0;        // metric's unit
+  // Beyond the tolerance; for a metric that is only bounded: another side of its bound; undefined counts too.
+  bool beyond = false;
+};
+
+struct Ablation {
+  std::string name;
+  std::vector<std::string> set;
+  std::string about;
+  bool applies = true;          // false: the scene has no such form, `failure` says why
+  std::string failure;          // of the run
+  std::vector<Effect> effects;  // one a metric; empty where the run failed
+  double cost = 0.0;            // [core-s per simulated s]
+  double core_seconds = 0.0;
+  double work = 0.0;  // work units per simulated second
+
+  // It ran, and no metric changed beyond its tolerance.
+  bool dispensable() const;
+};
+
+struct AblateReport {
+  std::string scene, version, case_hash, host;
+  std::vector<std::string> set;  // of all runs
+  std::vector<AblatedMetric> metrics;
+  std::vector<Ablation> rows;  // the first is the full model
+};
+
+// The overrides of a part for this scene. Throws std::invalid_argument where the scene has no such form.
+std::vector<std::string> overrides_of(const Part& part, const Scene& scene);
+
+// The metrics of a run by the table of checks, each with one tolerance; without cost, and without what needs
+// a second run.
+std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene);
+
+// Runs the case with `set`, then with each part removed. Throws std::runtime_error where the full model does
+// not run or `checks` is empty.
+AblateReport ablate(const std::filesystem::path& case_file, const std::vector<std::string>& set,
+                    const std::vector<Part>& parts, const std::vector<Check>& checks, Runner& runner);
+
+std::string ablate_text(const AblateReport& report);
+// Columns: part,metric,value,change,unit,tolerance,beyond,core_seconds,core_s_per_s,work_units_per_s,failure.
+std::string ablate_csv(const AblateReport& report);
+std::string ablate_json(const AblateReport& report);
+
+}  // namespace granvof::compare

@@ -1,0 +1,111 @@
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "compare/study/advise_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_number(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::string error_text(const Trial& trial) {
+  return trial.error ? fmt::format("{:.2g} %", 100.0 * *trial.error) : "-";
+}
+
+std::vector<std::string> summary(const AdviseReport& report) {
+  const Target& target = report.target;
+  std::vector<std::string> lines{
+      fmt::format("{}: {} to {:g} %", report.scene, report.input.quantity.label(),
+                  100.0 * report.input.tolerance),
+      fmt::format("reference: {}, {}; its own uncertainty {:.2g} %{}", target.kind, target.source,
+                  100.0 * target.floor, target.note.empty() ? "" : "; " + target.note)};
+  if (target.floor > report.input.tolerance)
+    lines.emplace_back("WARNING: the reference is more uncertain than the tolerance");
+  if (!report.advice.chosen) {
+    lines.emplace_back("no configuration meets it and is confirmed by a finer run");
+    return lines;
+  }
+  const Step& chosen = *report.advice.chosen;
+  lines.push_back(fmt::format("cheapest: {}; error {}, {:.3g} core-s per simulated s",
+                              name_of(chosen.configuration), error_text(chosen.trial), chosen.trial.cost));
+  if (target.cost)
+    lines.push_back(fmt::format("DEM-VOF costs {:.0f} times that", *target.cost / chosen.trial.cost));
+  const Step& finer = *report.advice.confirmation;
+  lines.push_back(fmt::format("confirmed by {}: error {}, {:.2g} % from it", name_of(finer.configuration),
+                              error_text(finer.trial), 100.0 * *report.advice.moved));
+  return lines;
+}
+
+// "numerics.solid_flux=limited" -> "solid_flux = \"limited\"": a bare word becomes a text, as --set takes it.
+std::string toml_line(const std::string& key, const std::string& value) {
+  const bool literal = value == "true" || value == "false" || value.find_first_of("0123456789[{\"'+-") == 0;
+  return literal ? fmt::format("{} = {}\n", key, value) : fmt::format("{} = \"{}\"\n", key, value);
+}
+
+}  // namespace
+
+std::string advise_text(const AdviseReport& report) {
+  std::string text;
+  for (const std::string& line : summary(report)) text += line + "\n";
+  text += "evidence:\n";
+  for (const Step& step : report.advice.steps)
+    text += fmt::format("  {:<60} {:>8} {:>9.3g} core-s/s  {}\n", name_of(step.configuration),
+                        error_text(step.trial), step.trial.cost, step.remark);
+  return text;
+}
+
+std::string advise_json(const AdviseReport& report) {
+  Json json{
+      {"scene", report.scene},
+      {"quantity", report.input.quantity.label()},
+      {"tolerance", report.input.tolerance},
+      {"reference",
+       {{"kind", report.target.kind}, {"source", report.target.source}, {"floor", report.target.floor}}},
+      {"version", report.version},
+      {"summary", summary(report)},
+      {"set", report.set},
+      {"steps", Json::array()}};
+  for (const Step& step : report.advice.steps)
+    json["steps"].push_back({{"configuration", name_of(step.configuration)},
+                             {"error", json_number(step.trial.error)},
+                             {"core_s_per_s", step.trial.cost},
+                             {"remark", step.remark}});
+  return json.dump(1) + "\n";
+}
+
+std::string advised_case(const AdviseReport& report, const std::filesystem::path& directory,
+                         const std::string& name) {
+  std::string text = fmt::format(
+      "# {}: {} as cheap as {} to {:g} % allows; by granvof-compare advise, {}.\n#\n", name, report.scene,
+      report.input.quantity.label(), 100.0 * report.input.tolerance, report.version);
+  for (const std::string& line : summary(report)) text += fmt::format("# {}\n", line);
+  text += "#\n# Evidence (error, core-s per simulated s):\n";
+  for (const Step& step : report.advice.steps)
+    text += fmt::format("#   {}: {}, {:.3g}; {}\n", name_of(step.configuration), error_text(step.trial),
+                        step.trial.cost, step.remark);
+  // The last of two overrides of one key holds, as on the command line.
+  std::map<std::string, std::map<std::string, std::string>> tables;
+  for (const std::string& assignment : report.set) {
+    const auto equals = assignment.find('=');
+    const std::string key = assignment.substr(0, equals);
+    const auto dot = key.find('.');
+    tables[key.substr(0, dot)][key.substr(dot + 1)] = assignment.substr(equals + 1);
+  }
+  tables["scene"]["name"] = name;
+  const auto base = std::filesystem::relative(report.input.case_file, directory);
+  text += fmt::format("base = \"{}\"\n", base.generic_string());
+  for (const auto& [table, keys] : tables) {
+    text += fmt::format("\n[{}]\n", table);
+    for (const auto& [key, value] : keys) text += toml_line(key, value);
+  }
+  return text;
+}
+
+}  // namespace granvof::compare

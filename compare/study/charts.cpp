@@ -1,0 +1,161 @@
+#include "compare/study/charts.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "compare/input/records.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+constexpr std::array tolerances{0.10, 0.05, 0.02};
+
+std::string cell_label(double cell) {
+  return fmt::format("{:.4g} mm", 1e3 * cell);
+}
+
+bool is_reference_method(const Chart& chart, const Method& method) {
+  return std::any_of(chart.panels.begin(), chart.panels.end(), [&](const Panel& panel) {
+    return panel.against == Against::finest && panel.method == method.name;
+  });
+}
+
+// The run of `method` on the n-th cell size from the smallest.
+const Run* run_of(const ChartResult& result, const std::vector<Outcome>& outcomes, const std::string& method,
+                  std::size_t from_finest) {
+  const auto& grids = result.chart.grids;
+  const double cell = grids[grids.size() - 1 - from_finest];
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (result.points[i].method == method && result.points[i].cell == cell && outcomes[i].run)
+      return &*outcomes[i].run;
+  return nullptr;
+}
+
+const Run* any_run(const std::vector<Outcome>& outcomes) {
+  for (const Outcome& outcome : outcomes)
+    if (outcome.run) return &*outcome.run;
+  return nullptr;
+}
+
+Target target_of(const Panel& panel, const ChartResult& result, const std::vector<Outcome>& outcomes,
+                 const Scene& scene, const std::filesystem::path& records) {
+  const Run* some = any_run(outcomes);
+  Target none{std::string(name_of(panel.against)), "", {}, 0.0, std::nullopt, "no run finished"};
+  switch (panel.against) {
+    case Against::finest: {
+      const Run* finest = run_of(result, outcomes, panel.method, 0);
+      if (finest)
+        return own_target(panel.quantity, *finest, panel.method, run_of(result, outcomes, panel.method, 1));
+      none.kind = "own finest grid";
+      none.note = fmt::format("{} on {} did not finish", panel.method, cell_label(result.chart.grids.back()));
+      return none;
+    }
+    case Against::dem:
+      return dem_target(panel.quantity, scene, records, panel.record);
+    case Against::theory:
+      return some ? theory_target(panel.quantity, *some, panel.formula) : none;
+    case Against::published:
+      return some ? published_target(*some, panel.published, panel.column) : none;
+  }
+  return none;
+}
+
+PanelResult judge_panel(const Panel& panel, const ChartResult& result, const std::vector<Outcome>& outcomes,
+                        const Scene& scene, const std::filesystem::path& records) {
+  PanelResult judged{panel, target_of(panel, result, outcomes, scene, records), {}, {}};
+  std::vector<WorkPrecision> points;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    std::optional<double> error;
+    const bool itself = panel.against == Against::finest && result.points[i].method == panel.method &&
+                        result.points[i].cell == result.chart.grids.back();
+    if (outcomes[i].run && !itself)
+      error = relative_distance(panel.quantity, observe(panel.quantity, *outcomes[i].run),
+                                judged.target.observed);
+    judged.errors.push_back(error);
+    points.push_back({result.points[i].cost, error});
+  }
+  judged.front = pareto_front(points);
+  return judged;
+}
+
+ChartPoint point_of(const Method& method, double cell, const std::vector<std::string>& set,
+                    const Outcome& outcome) {
+  ChartPoint point{method.name,          cell,           set,           outcome.failure, "", "", "",
+                   outcome.core_seconds, outcome.cost(), outcome.work()};
+  if (!outcome.facts) return point;
+  point.version = outcome.facts->version;
+  if (!outcome.facts->commit.empty()) point.version += fmt::format(" ({})", outcome.facts->commit);
+  point.case_hash = outcome.facts->case_hash;
+  point.host = outcome.facts->host;
+  return point;
+}
+
+std::string advice(const ChartResult& result, const PanelResult& panel, double tolerance) {
+  if (panel.target.floor > tolerance)
+    return fmt::format("not to be told (the reference itself is uncertain by {:.2g} %)",
+                       100.0 * panel.target.floor);
+  std::vector<WorkPrecision> points;
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    points.push_back({result.points[i].cost, panel.errors[i]});
+  const auto best = cheapest_within(points, tolerance);
+  if (!best) return "none of these";
+  const ChartPoint& point = result.points[*best];
+  std::string text = fmt::format("{} on {} ({:.2g} core-s per s, {:.2g} work units", point.method,
+                                 cell_label(point.cell), point.cost, point.work);
+  if (result.dem_cost)
+    text += fmt::format("; DEM-VOF costs {:.0f} times that", *result.dem_cost / point.cost);
+  return text + ")";
+}
+
+}  // namespace
+
+ChartResult make_chart(const Chart& chart, const std::vector<Method>& methods,
+                       const std::filesystem::path& cases, const std::filesystem::path& records,
+                       Runner& runner) {
+  const auto file = cases / (chart.case_name + ".toml");
+  const Scene scene = load_scene(file, chart.set);
+  ChartResult result{chart, {}, {}, {}, std::nullopt};
+  std::vector<Outcome> outcomes;
+  for (const Method& method : methods)
+    for (const double cell : chart.grids) {
+      if (cell < chart.down_to * (1.0 - 1e-9) && !is_reference_method(chart, method)) {
+        result.left_out.push_back(fmt::format("{} on {}", method.name, cell_label(cell)));
+        continue;
+      }
+      Job job{file, chart.set};
+      job.set.push_back(fmt::format("grid.dx={:.12g}", cell));
+      job.set.insert(job.set.end(), method.set.begin(), method.set.end());
+      outcomes.push_back(runner.run(job));
+      result.points.push_back(point_of(method, cell, job.set, outcomes.back()));
+    }
+  for (const Panel& panel : chart.panels)
+    result.panels.push_back(judge_panel(panel, result, outcomes, scene, records));
+  for (const PanelResult& panel : result.panels)
+    if (panel.target.cost) result.dem_cost = panel.target.cost;
+  return result;
+}
+
+std::vector<std::string> recommendations(const ChartResult& result) {
+  std::vector<std::string> lines;
+  for (const PanelResult& panel : result.panels) {
+    std::string line = fmt::format("{}, {} against {} ({}): ", result.chart.case_name,
+                                   panel.panel.quantity.label(), panel.target.kind, panel.target.source);
+    if (!panel.target.observed.defined()) {
+      lines.push_back(line + "no reference: " + panel.target.note);
+      continue;
+    }
+    std::vector<std::string> parts;
+    for (const double tolerance : tolerances)
+      parts.push_back(fmt::format("for {:g} % use {}", 100.0 * tolerance, advice(result, panel, tolerance)));
+    line += fmt::format("{}", fmt::join(parts, "; "));
+    if (!result.dem_cost) line += "; no DEM-VOF record to set the cost against";
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace granvof::compare

@@ -1,0 +1,114 @@
+#include "compare/study/target.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "compare/checks/theory.hpp"
+#include "compare/input/curves.hpp"
+#include "compare/input/records.hpp"
+
+namespace granvof::compare {
+namespace {
+
+// What a record cost, the preparation of its beads included [core-s per simulated s].
+std::optional<double> cost_of_record(const RunFacts& facts) {
+  const auto spent = facts.number("core_seconds");
+  const auto simulated = facts.number("simulated_time");
+  if (!spent || !simulated || *simulated <= 0.0) return std::nullopt;
+  return (*spent + facts.number("preparation_core_seconds").value_or(0.0)) / *simulated;
+}
+
+// Mean of curves, on the samples of the first that all cover.
+Curve mean_curve(const std::vector<Curve>& curves) {
+  Curve mean;
+  for (const double x : curves.front().time) {
+    double sum = 0.0;
+    bool covered = true;
+    for (const Curve& curve : curves) {
+      const auto value = value_at(curve, x);
+      covered = covered && value.has_value();
+      sum += value.value_or(0.0);
+    }
+    if (!covered) continue;
+    mean.time.push_back(x);
+    mean.value.push_back(sum / static_cast<double>(curves.size()));
+  }
+  return mean;
+}
+
+Observed mean_of(const Quantity& quantity, const std::vector<Observed>& variants) {
+  Observed mean;
+  if (quantity.is_curve) {
+    std::vector<Curve> curves;
+    for (const Observed& variant : variants) curves.push_back(variant.curve);
+    mean.curve = mean_curve(curves);
+    return mean;
+  }
+  double sum = 0.0;
+  for (const Observed& variant : variants) sum += *variant.value;
+  mean.value = sum / static_cast<double>(variants.size());
+  return mean;
+}
+
+}  // namespace
+
+Target dem_target(const Quantity& quantity, const Scene& scene, const std::filesystem::path& records,
+                  const std::string& name) {
+  Target target{"DEM", fmt::format("reference/results/{}", name), {}, 0.0, std::nullopt, ""};
+  std::vector<Observed> variants;
+  double dearest = 0.0;
+  for (const LoadedRun& loaded : load_records(records, name, scene)) {
+    if (!loaded.run) {
+      target.note = loaded.reason;
+      continue;
+    }
+    Observed observed = observe(quantity, *loaded.run);
+    if (const auto cost = cost_of_record(loaded.run->facts)) dearest = std::max(dearest, *cost);
+    if (observed.defined()) variants.push_back(std::move(observed));
+  }
+  if (dearest > 0.0) target.cost = dearest;
+  if (variants.empty()) {
+    if (target.note.empty()) target.note = fmt::format("no record of '{}'", name);
+    return target;
+  }
+  target.observed = mean_of(quantity, variants);
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    for (std::size_t j = i + 1; j < variants.size(); ++j)
+      target.floor =
+          std::max(target.floor, 0.5 * relative_distance(quantity, variants[i], variants[j]).value_or(0.0));
+  target.source += fmt::format(", {} record{}", variants.size(), variants.size() == 1 ? "" : "s");
+  if (variants.size() == 1) target.note = "one record: its own uncertainty is not known from it";
+  return target;
+}
+
+Target theory_target(const Quantity&, const Run& run, const std::string& formula) {
+  const FormulaEntry& entry = *find_formula(formula);
+  Target target{"theory", std::string(entry.text), {}, 0.0, std::nullopt, ""};
+  target.observed.value = entry.function(run, {});
+  if (!target.observed.value) target.note = "the scene lacks what the formula needs";
+  return target;
+}
+
+Target published_target(const Run& run, const std::string& file, const std::string& column) {
+  Target target{"published", fmt::format("cases/published/{}", file), {}, 0.0, std::nullopt, ""};
+  target.observed.curve = published_curve(run, file, column);
+  return target;
+}
+
+Target own_target(const Quantity& quantity, const Run& finest, const std::string& method,
+                  const Run* coarser) {
+  Target target{"own finest grid",
+                fmt::format("{} on {:g} mm", method, 1e3 * finest.scene.grid.spacing[0]),
+                {},
+                0.0,
+                std::nullopt,
+                ""};
+  target.observed = observe(quantity, finest);
+  target.note = target.observed.note;
+  if (coarser)
+    target.floor = relative_distance(quantity, observe(quantity, *coarser), target.observed).value_or(0.0);
+  return target;
+}
+
+}  // namespace granvof::compare

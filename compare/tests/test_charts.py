@@ -1,0 +1,82 @@
+"""Charts of error against cost, and their place in the report, from made-up studies."""
+
+import json
+
+import pytest
+from report import charts, report
+
+METHODS = [{"name": "first", "set": [], "about": "the paper's"}, {"name": "second", "set": ["a.b=1"], "about": ""}]
+
+
+def point(method, cell, cost, failure=""):
+    return {"method": method, "cell": cell, "set": [], "failure": failure, "version": "0.1.0 (abc)",
+            "case_hash": "0123456789abcdef", "host": "A Processor", "core_seconds": cost, "core_s_per_s": cost,
+            "work_units_per_s": 10 * cost}
+
+
+def study(**changed):
+    chart = {"case": "s1", "left_out": ["second on 0.625 mm"], "dem_cost": 2000.0, "lines": ["s1: for 10 % use <first>"],
+             "points": [point("first", 0.005, 1.0), point("first", 0.0025, 8.0), point("second", 0.005, 2.0, "step collapse"),
+                        point("second", 0.0025, 12.0)],
+             "panels": [{"quantity": "run_out", "curve": True, "against": "own finest grid", "source": "first on 1.25 mm",
+                         "defined": True, "floor": 0.02, "note": "", "errors": [0.2, 0.1, None, 0.0], "pareto": [0, 1, 3]},
+                        {"quantity": "run_out", "curve": True, "against": "DEM", "source": "", "defined": False, "floor": 0.0,
+                         "note": "no record", "errors": [None] * 4, "pareto": []}]}
+    return {"date": "2026-01-02T00:00:00Z", "methods": METHODS, "charts": [chart | changed]}
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Axes as they are when a chart is saved."""
+    seen = []
+    monkeypatch.setattr(charts.style, "save", lambda figure, directory, name: seen.append(figure) or name)
+    return seen
+
+
+def test_a_chart_has_a_panel_for_each_reference_there_is(drawn):
+    assert charts.draw_all(study(), None) == ["error-cost-s1"]
+    axes = [axis for axis in drawn[0].axes]
+    assert len(axes) == 1
+    assert axes[0].get_xscale() == axes[0].get_yscale() == "log"
+    lines = {line.get_label(): line for line in axes[0].get_lines()}
+    assert list(lines["first"].get_xdata()) == [1.0, 8.0]
+    assert list(lines["second"].get_ydata()) == [charts.LOWEST]  # an error of 0 is drawn at the lower edge
+    assert "failed" in lines and lines["failed"].get_ydata()[0] > 0.2
+    assert lines["cost of DEM-VOF"].get_xdata()[0] == 2000.0
+    front = next(line for label, line in lines.items() if label.startswith("Pareto"))
+    assert len(front.get_xdata()) == 3
+
+
+def test_a_chart_without_a_reference_is_not_drawn(drawn):
+    content = study()
+    content["charts"][0]["panels"] = content["charts"][0]["panels"][1:]
+    assert charts.draw_all(content, None) == []
+
+
+def test_missing_charts_are_named(tmp_path, capsys):
+    assert charts.main(["--charts", str(tmp_path)]) == 2
+    assert "no charts.json" in capsys.readouterr().err
+
+
+def test_the_report_shows_charts_and_ablations(verify_directory):
+    (verify_directory.parent / "charts").mkdir()
+    (verify_directory.parent / "charts/charts.json").write_text(json.dumps(study()))
+    ablated = {"scene": "s1", "set": [], "version": "0.1.0", "case_hash": "0123456789abcdef", "host": "A Processor",
+               "metrics": [{"metric": "run_out@10", "unit": "-", "tolerance": "0.05 [-]", "full": 2.2}],
+               "rows": [{"part": part, "set": [], "about": "", "applies": applies, "failure": failure, "dispensable": False,
+                         "core_seconds": 2.0, "core_s_per_s": 3.0, "work_units_per_s": 30.0, "effects": effects}
+                        for part, applies, failure, effects in [
+                            ("full model", True, "", [{"value": 2.2, "change": 0.0, "tolerance": 0.05, "beyond": False}]),
+                            ("no LES", True, "", [{"value": 2.5, "change": 0.3, "tolerance": 0.05, "beyond": True}]),
+                            ("Theta off", True, "step collapse", []), ("2D", False, "in 2D already", [])]]}
+    (verify_directory.parent / "ablate/s1").mkdir(parents=True)
+    (verify_directory.parent / "ablate/s1/ablate.json").write_text(json.dumps(ablated))
+    assert report.main(["--verify", str(verify_directory)]) == 0
+    page = (verify_directory / "report.html").read_text()
+    assert 'id="error-cost-s1"' in page
+    assert "for 10 % use &lt;first&gt;" in page
+    assert "left out for their cost: second on 0.625 mm" in page
+    assert "<strong>0.3</strong>" in page
+    assert "failed: step collapse" in page
+    assert "in 2D already" not in page
+    assert (verify_directory / "plots/error-cost-s1.pdf").exists()

@@ -1,0 +1,110 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "compare/input/table_error.hpp"
+#include "compare/study/study_file.hpp"
+
+namespace granvof::compare {
+namespace {
+
+const std::string good = R"toml(
+[[method]]
+name = "first"
+[[method]]
+name = "second"
+set = ["numerics.solid_flux=limited"]
+[[part]]
+name = "no LES"
+set = ["model.les=false"]
+[[part]]
+name = "lid"
+form = "rigid lid"
+[[chart]]
+case = "s1"
+grids = [0.005, 0.0025, 0.00125]
+down_to = 0.0025
+[[chart.panel]]
+quantity = "run_out"
+window = [0, 10]
+against = "finest"
+method = "second"
+[[chart.panel]]
+quantity = "run_out@5"
+against = "DEM"
+)toml";
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_study(text, "study.toml");
+  } catch (const TableError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// `good` with one line of it replaced.
+std::string replaced(const std::string& line, const std::string& by) {
+  std::string text = good;
+  const auto at = text.find(line);
+  EXPECT_NE(at, std::string::npos) << line;
+  return text.replace(at, line.size(), by);
+}
+
+TEST(StudyFile, ReadsMethodsPartsAndCharts) {
+  const Study study = parse_study(good, "study.toml");
+  ASSERT_EQ(study.methods.size(), 2u);
+  EXPECT_TRUE(study.methods[0].set.empty());
+  EXPECT_EQ(study.methods[1].set, std::vector<std::string>{"numerics.solid_flux=limited"});
+  ASSERT_EQ(study.parts.size(), 2u);
+  EXPECT_EQ(study.parts[1].form, Form::rigid_lid);
+  ASSERT_EQ(study.charts.size(), 1u);
+  const Chart& chart = study.charts[0];
+  EXPECT_DOUBLE_EQ(chart.down_to, 0.0025);
+  ASSERT_EQ(chart.panels.size(), 2u);
+  EXPECT_TRUE(chart.panels[0].quantity.is_curve);
+  EXPECT_EQ(chart.panels[0].method, "second");
+  EXPECT_FALSE(chart.panels[1].quantity.is_curve);
+  EXPECT_EQ(chart.panels[1].record, "s1");
+  EXPECT_EQ(chart.panels[1].quantity.label(), "run_out@5");
+}
+
+TEST(StudyFile, TheShippedFileIsAccepted) {
+  const Study study = read_study(GRANVOF_CASES_DIR "/../compare/study.toml");
+  EXPECT_FALSE(study.methods.empty());
+  EXPECT_FALSE(study.parts.empty());
+}
+
+struct Wrong {
+  const char* line;
+  const char* by;
+  const char* says;
+};
+
+class StudyFileRefuses : public testing::TestWithParam<Wrong> {};
+
+TEST_P(StudyFileRefuses, WithPlaceAndCause) {
+  const std::string said = message_of(replaced(GetParam().line, GetParam().by));
+  EXPECT_EQ(said.rfind("study.toml:", 0), 0u) << said;
+  EXPECT_NE(said.find(GetParam().says), std::string::npos) << said;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, StudyFileRefuses,
+    testing::Values(
+        Wrong{"name = \"second\"", "name = \"first\"", "'first' is given twice"},
+        Wrong{"set = [\"model.les=false\"]", "set = [\"model.les\"]", "expected key=value"},
+        Wrong{"set = [\"model.les=false\"]", "", "give one of 'set' and 'form'"},
+        Wrong{"form = \"rigid lid\"", "form = \"lid\"", "allowed: rigid lid, two dimensions"},
+        Wrong{"grids = [0.005, 0.0025, 0.00125]", "grids = [0.0025, 0.005]", "from large to small"},
+        Wrong{"grids = [0.005, 0.0025, 0.00125]", "grids = [0.005, -1]", "allowed: more than 0"},
+        Wrong{"against = \"DEM\"", "against = \"dem\"", "allowed: finest, DEM, theory, published"},
+        Wrong{"against = \"DEM\"", "against = \"DEM\"\nformula = \"x\"", "only against = \"theory\""},
+        Wrong{"against = \"DEM\"", "against = \"theory\"\nformula = \"x\"", "'x' given"},
+        Wrong{"method = \"second\"", "method = \"third\"", "no [[method]] has the name 'third'"},
+        Wrong{"quantity = \"run_out@5\"", "quantity = \"run_out@five\"", "expected NAME or NAME@NUMBER"},
+        Wrong{"quantity = \"run_out@5\"", "quantity = \"reach\"", "'reach' given; allowed: run_out"},
+        Wrong{"down_to = 0.0025", "downto = 0.0025", "unknown key"}));
+
+}  // namespace
+}  // namespace granvof::compare

@@ -1,0 +1,112 @@
+// Ablation of a tiny collapse with the real program: a table comes out, and a second time nothing is run.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "compare/checks/table.hpp"
+#include "compare/study/ablate.hpp"
+#include "compare/study/runner.hpp"
+#include "compare/study/study_file.hpp"
+
+namespace granvof::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* checks = R"toml(
+[[run]]
+id = "canary"
+[[check]]
+run = "canary"
+metric = "run_out"
+at = 2
+reference = { kind = "DEM", record = "canary" }
+tolerance = { absolute = 0.05, unit = "-" }
+frequency = "verify"
+[[check]]
+run = "canary"
+metric = "solid_volume_error"
+reference = { kind = "theory", value = 0, source = "eq (1)" }
+tolerance = { absolute = 1e-12, unit = "-" }
+frequency = "verify"
+)toml";
+
+constexpr const char* study = R"toml(
+[[method]]
+name = "plain"
+[[part]]
+name = "no friction"
+set = ["model.contact_friction=false"]
+[[part]]
+name = "no colour"
+set = ["model.colour=false"]
+[[part]]
+name = "rigid lid"
+form = "rigid lid"
+[[part]]
+name = "nonsense"
+set = ["model.colour=7"]
+)toml";
+
+TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
+  const fs::path root = fs::path(testing::TempDir()) / "ablate";
+  fs::remove_all(root);
+  const fs::path file = fs::path(GRANVOF_CASES_DIR) / "canary.toml";
+  const std::vector<std::string> set{"grid.dx=0.005", "time.end=2", "output.field_times=[0]"};
+  RunnerOptions options{GRANVOF_PROGRAM, root};
+  options.progress = false;
+  options.repeat_below = 0.0;
+  CachedRunner runner(options);
+  const auto metrics = metrics_of_scene(parse_table(checks, "checks"), "canary");
+  ASSERT_EQ(metrics.size(), 2u);
+  const auto parts = parse_study(study, "study").parts;
+  const AblateReport report = ablate(file, set, parts, metrics, runner);
+  ASSERT_EQ(report.rows.size(), 5u);
+
+  const Ablation& friction = report.rows[1];
+  ASSERT_TRUE(friction.failure.empty()) << friction.failure;
+  EXPECT_GT(*friction.effects[0].change, 0.1);  // without friction it runs further
+  EXPECT_TRUE(friction.effects[0].beyond);
+  EXPECT_FALSE(friction.dispensable());
+  EXPECT_FALSE(friction.effects[1].beyond);
+
+  const Ablation& colour = report.rows[2];
+  EXPECT_EQ(*colour.effects[0].change, 0.0);
+  EXPECT_TRUE(colour.dispensable());
+  EXPECT_GT(colour.cost, 0.0);
+  EXPECT_GT(colour.work, 0.0);
+
+  EXPECT_TRUE(report.rows[3].applies) << report.rows[3].failure;
+  EXPECT_TRUE(report.rows[3].failure.empty()) << report.rows[3].failure;
+  EXPECT_FALSE(report.rows[4].applies);
+  EXPECT_NE(report.rows[4].failure.find("model.colour"), std::string::npos) << report.rows[4].failure;
+
+  const std::string text = ablate_text(report);
+  for (const char* word : {"run_out@2", "no friction", "changes run_out@2", "no metric beyond its tolerance"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+
+  CachedRunner again(options);
+  EXPECT_TRUE(again.run({file, set}).kept);
+  fs::remove_all(root);
+}
+
+TEST(Runner, AFailedRunIsKeptAsFailed) {
+  const fs::path root = fs::path(testing::TempDir()) / "failing";
+  fs::remove_all(root);
+  RunnerOptions options{GRANVOF_PROGRAM, root};
+  options.progress = false;
+  const Job job{fs::path(GRANVOF_CASES_DIR) / "canary.toml",
+                {"grid.dx=0.005", "numerics.dt_max=4e-3", "numerics.dt_min=3.9e-3"}};
+  for (const bool kept : {false, true}) {
+    CachedRunner runner(options);
+    const Outcome outcome = runner.run(job);
+    EXPECT_FALSE(outcome.run);
+    EXPECT_EQ(outcome.kept, kept);
+    EXPECT_NE(outcome.failure.find("exit code 1"), std::string::npos) << outcome.failure;
+  }
+  fs::remove_all(root);
+}
+
+}  // namespace
+}  // namespace granvof::compare
