@@ -176,7 +176,7 @@ struct StudyCommands::Options {
   }
 };
 
-StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_unique<Options>()) {
+StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>()) {
   options_->ablate = app.add_subcommand(
       "ablate",
       "run a scene with each part of the model removed: what it does to every metric and to the cost");
@@ -212,8 +212,6 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_unique<Options>
   options_->charts->add_option("--records", options_->records, "recorded DEM-VOF results")
       ->capture_default_str();
 }
-
-StudyCommands::~StudyCommands() = default;
 
 bool StudyCommands::parsed() const {
   return options_->ablate->parsed() || options_->advise->parsed() || options_->charts->parsed();

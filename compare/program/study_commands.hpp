@@ -10,14 +10,13 @@ namespace granvof::compare {
 class StudyCommands {
  public:
   explicit StudyCommands(CLI::App& app);
-  ~StudyCommands();
   // Whether one of them was asked for, and its exit code. run() throws what its parts throw.
   bool parsed() const;
   int run();
 
  private:
   struct Options;
-  std::unique_ptr<Options> options_;
+  std::shared_ptr<Options> options_;
 };
 
 }  // namespace granvof::compare

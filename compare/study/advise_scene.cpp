@@ -70,7 +70,7 @@ class SceneBench : public Bench {
 std::optional<Target> known_target(const AdviseInput& input, const Run& run) {
   for (const Panel& panel : input.panels) {
     if (panel.quantity.label() != input.quantity.label()) continue;
-    if (panel.against == Against::theory) return theory_target(input.quantity, run, panel.formula);
+    if (panel.against == Against::theory) return theory_target(run, panel.formula);
     if (panel.against == Against::published) return published_target(run, panel.published, panel.column);
   }
   if (input.quantity.is_curve) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<Target> known_target(const AdviseInput& input, const Run& run) {
     if (!same || check.relation != Relation::equal) continue;
     if (check.reference.kind != ReferenceKind::theory && check.reference.kind != ReferenceKind::published)
       continue;
-    if (check.reference.formula) return theory_target(input.quantity, run, *check.reference.formula);
+    if (check.reference.formula) return theory_target(run, *check.reference.formula);
     Target stated{std::string(name_of(check.reference.kind)),
                   check.reference.source,
                   {},

@@ -57,7 +57,7 @@ Target target_of(const Panel& panel, const ChartResult& result, const std::vecto
     case Against::dem:
       return dem_target(panel.quantity, scene, records, panel.record);
     case Against::theory:
-      return some ? theory_target(panel.quantity, *some, panel.formula) : none;
+      return some ? theory_target(*some, panel.formula) : none;
     case Against::published:
       return some ? published_target(*some, panel.published, panel.column) : none;
   }
@@ -99,6 +99,7 @@ std::string advice(const ChartResult& result, const PanelResult& panel, double t
     return fmt::format("not to be told (the reference itself is uncertain by {:.2g} %)",
                        100.0 * panel.target.floor);
   std::vector<WorkPrecision> points;
+  points.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
     points.push_back({result.points[i].cost, panel.errors[i]});
   const auto best = cheapest_within(points, tolerance);

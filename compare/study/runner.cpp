@@ -94,7 +94,9 @@ std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene,
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(directory.parent_path(), missing)) {
     const auto note = read_note(entry.path());
-    if (note && note->at("set") == nlohmann::json(job.set))
+    if (!note) continue;
+    if (note->at("set") == nlohmann::json(job.set) ||
+        read_facts(entry.path() / "run.json").resolved_case == scene.resolved)
       earlier.emplace_back(entry.last_write_time(), entry.path());
   }
   if (earlier.empty()) return std::nullopt;

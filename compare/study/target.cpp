@@ -41,6 +41,7 @@ Observed mean_of(const Quantity& quantity, const std::vector<Observed>& variants
   Observed mean;
   if (quantity.is_curve) {
     std::vector<Curve> curves;
+    curves.reserve(variants.size());
     for (const Observed& variant : variants) curves.push_back(variant.curve);
     mean.curve = mean_curve(curves);
     return mean;
@@ -82,7 +83,7 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
   return target;
 }
 
-Target theory_target(const Quantity&, const Run& run, const std::string& formula) {
+Target theory_target(const Run& run, const std::string& formula) {
   const FormulaEntry& entry = *find_formula(formula);
   Target target{"theory", std::string(entry.text), {}, 0.0, std::nullopt, ""};
   target.observed.value = entry.function(run, {});

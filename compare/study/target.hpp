@@ -24,7 +24,7 @@ struct Target {
 Target dem_target(const Quantity& quantity, const Scene& scene, const std::filesystem::path& records,
                   const std::string& name);
 // A formula of checks/theory.hpp, computed from `run`.
-Target theory_target(const Quantity& quantity, const Run& run, const std::string& formula);
+Target theory_target(const Run& run, const std::string& formula);
 // A series of cases/published.
 Target published_target(const Run& run, const std::string& file, const std::string& column);
 // Our own run; floor: how far the run on the next coarser cells is from it.
