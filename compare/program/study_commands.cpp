@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 #include <functional>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -51,6 +52,9 @@ std::vector<Part> chosen_parts(const Study& study, const std::vector<std::string
   return chosen;
 }
 
+const std::map<std::string, Against> references{
+    {"DEM", Against::dem}, {"theory", Against::theory}, {"finest", Against::finest}};
+
 // "5%" or "0.05". Throws std::runtime_error.
 double read_tolerance(const std::string& text) {
   const bool percent = text.ends_with('%');
@@ -88,7 +92,7 @@ struct StudyCommands::Options {
   fs::path cases = "cases", records = "reference/results";
   std::vector<std::string> set, parts, scenes;
   std::vector<double> cells;
-  std::string metric, tolerance;
+  std::string metric, tolerance, against;
   CLI::App* ablate = nullptr;
   CLI::App* advise = nullptr;
   CLI::App* charts = nullptr;
@@ -143,6 +147,7 @@ struct StudyCommands::Options {
     std::sort(input.cells.begin(), input.cells.end(), std::greater<>());
     if (input.cells.size() < 2) throw std::runtime_error("--cells: give two cell sizes or more");
     if (chart) input.panels = chart->panels;
+    if (!against.empty()) input.against = references.at(against);
     CachedRunner made(runner);
     const AdviseReport report = advise_scene(input, read, made);
     const fs::path directory = out.empty() ? fs::path("out/advise") : out;
@@ -169,7 +174,7 @@ struct StudyCommands::Options {
         results.push_back(make_chart(chart, read.methods, cases, records, made));
     const fs::path directory = out.empty() ? fs::path("out/charts") : out;
     write(directory, "charts.csv", charts_csv(results));
-    write(directory, "charts.json", charts_json(results, read.methods, iso_date_now()));
+    write(directory, "points.json", charts_json(results, read.methods, iso_date_now()));
     write(directory, "charts.txt", charts_text(results));
     fmt::print("{}", charts_text(results));
     return 0;
@@ -200,6 +205,10 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
                    "cell sizes [m]; the smallest only confirms (default: those of the chart)")
       ->check(CLI::PositiveNumber)
       ->delimiter(',');
+  options_->advise
+      ->add_option("--against", options_->against,
+                   "reference: DEM, theory or finest (default: the first of these that there is)")
+      ->check(CLI::IsMember(references));
   options_->advise->add_option("--records", options_->records, "recorded DEM-VOF results")
       ->capture_default_str();
 

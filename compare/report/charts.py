@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Error against cost, one picture a scene, from charts.json of `granvof-compare charts`; runs nothing.
+"""Error against cost, one picture a scene, from points.json of `granvof-compare charts`; runs nothing.
 
-Also reads the ablations (ablate.json of `granvof-compare ablate`) for the page.
+Leaves charts.json beside the pictures, the section of the report (sections.py), with the ablations that there are
+(ablate.json of `granvof-compare ablate`) as tables.
 """
 
 import argparse
@@ -18,8 +19,8 @@ LOWEST = 1e-4  # relative; an error below it is drawn there
 
 
 def load(directory):
-    """Content of charts.json; None where there is none."""
-    path = Path(directory) / "charts.json"
+    """Content of points.json; None where there is none."""
+    path = Path(directory) / "points.json"
     return json.loads(path.read_text()) if path.exists() else None
 
 
@@ -135,25 +136,58 @@ def caption(name):
             "reference's own uncertainty.")
 
 
+def ablation_table(study):
+    """Change of each metric without a part, for the page; what is beyond its tolerance carries a star."""
+    def cell(effect, full):
+        value = effect["value"] if full else effect["change"]
+        return "-" if value is None else f"{value:{'' if full else '+'}.3g}{' *' if effect['beyond'] else ''}"
+
+    rows = []
+    for index, row in enumerate(row for row in study["rows"] if row["applies"]):
+        cells = [cell(effect, index == 0) for effect in row["effects"]] or ["failed"] * len(study["metrics"])
+        rows.append([row["part"], *cells, row["core_seconds"]])
+    setting = " ".join([study["scene"], *study["set"]])
+    return {"caption": f"{setting}: each part of the model removed in turn, change of each metric against the full model; "
+                       f"* beyond its tolerance (granvof {study['version']}, case {study['case_hash'][:8]}, {study['host']})",
+            "columns": ["part"] + [metric["metric"] for metric in study["metrics"]] + ["core-s"], "rows": rows}
+
+
+def section(content, names, ablated):
+    """charts.json, as sections.py reads it."""
+    text = ["Errors are relative; lower left is better. Methods: " +
+            "; ".join(method["name"] + (f" ({method['about']})" if method["about"] else "") for method in content["methods"]) + "."]
+    for chart in content["charts"]:
+        text += chart["lines"]
+        if chart["left_out"]:
+            text.append(f"{chart['case']}, left out for their cost: {', '.join(chart['left_out'])}.")
+    versions = sorted({point["version"] for chart in content["charts"] for point in chart["points"] if point["version"]})
+    return {"title": "Accuracy against cost", "text": text, "commit": ", ".join(versions), "date": content["date"],
+            "figures": [{"file": f"{name}.png", "caption": caption(name)} for name in names],
+            "tables": [ablation_table(study) for study in ablated]}
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--charts", type=Path, required=True, help="directory with charts.json")
+    parser.add_argument("--charts", type=Path, required=True, help="directory with points.json")
+    parser.add_argument("--ablations", type=Path, help="directory of the ablations (default: ablate beside it)")
     parser.add_argument("--picture", type=Path, help="write the picture of one scene here too (PNG, few bytes)")
     parser.add_argument("--scene", default="s1", help="the scene of --picture (s1)")
     options = parser.parse_args(arguments)
     content = load(options.charts)
     if content is None:
-        print(f"charts: no charts.json in {options.charts}; run `make charts` first", file=sys.stderr)
+        print(f"charts: no points.json in {options.charts}; run `make charts` first", file=sys.stderr)
         return 2
-    names = draw_all(content, options.charts / "plots")
+    names = draw_all(content, options.charts)
+    ablated = ablations(options.ablations or options.charts.resolve().parent / "ablate")
+    (options.charts / "charts.json").write_text(json.dumps(section(content, names, ablated), indent=1) + "\n")
     for name in names:
-        print(options.charts / "plots" / f"{name}.png")
+        print(options.charts / f"{name}.png")
     if options.picture:
         name = f"error-cost-{options.scene}"
         if name not in names:
             print(f"charts: no chart of {options.scene} in {options.charts}", file=sys.stderr)
             return 2
-        shrink(options.charts / "plots" / f"{name}.png", options.picture)
+        shrink(options.charts / f"{name}.png", options.picture)
     return 0
 
 

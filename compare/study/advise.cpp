@@ -42,6 +42,7 @@ class Walk {
   std::vector<Step> within_tolerance(std::size_t grid) {
     std::vector<Step> found;
     for (const Method& method : methods_) {
+      if (grid >= method.grids.value_or(grid + 1)) continue;
       Step& step = attempt({cells_[grid], method, {}});
       if (step.trial.error) step.remark = meets(step.trial) ? "within the tolerance" : "beyond the tolerance";
       if (meets(step.trial)) found.push_back(step);

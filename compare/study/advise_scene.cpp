@@ -103,14 +103,16 @@ const Method& reference_method(const AdviseInput& input, const Study& study) {
 }
 
 Target choose_target(const AdviseInput& input, const Study& study, const Scene& scene, SceneBench& bench) {
+  const auto wanted = [&](Against kind) { return input.against.value_or(kind) == kind; };
   Target dem = dem_target(input.quantity, scene, input.records, scene.name);
-  if (dem.observed.defined()) return dem;
+  if (wanted(Against::dem) && dem.observed.defined()) return dem;
   const Method& method = reference_method(input, study);
   const Outcome coarse = bench.outcome({input.cells.front(), method, {}});
-  if (coarse.run) {
+  if (coarse.run && (wanted(Against::theory) || wanted(Against::published))) {
     auto known = known_target(input, *coarse.run);
     if (known && known->observed.defined()) return *known;
   }
+  if (!wanted(Against::finest)) throw std::runtime_error(fmt::format("no such reference: {}", dem.note));
   const Outcome finest = bench.outcome({input.cells.back(), method, {}});
   if (!finest.run)
     throw std::runtime_error(

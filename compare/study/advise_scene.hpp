@@ -20,6 +20,7 @@ struct AdviseInput {
   std::filesystem::path records;
   std::vector<Check> checks;  // rows of this scene, for the theory of a metric
   std::vector<Panel> panels;  // of the chart of this scene, for a published series and the reference method
+  std::optional<Against> against = std::nullopt;  // the reference; nothing: the first that there is
 };
 
 struct AdviseReport {
@@ -31,7 +32,7 @@ struct AdviseReport {
 };
 
 // The reference is the DEM records of the scene where there are some, else theory or a published series, else
-// our own finest grid. Throws std::runtime_error where there is no reference at all.
+// our own finest grid; or the one that the input names. Throws std::runtime_error where there is none.
 AdviseReport advise_scene(const AdviseInput& input, const Study& study, Runner& runner);
 
 std::string advise_text(const AdviseReport& report);

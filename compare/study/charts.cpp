@@ -122,8 +122,10 @@ ChartResult make_chart(const Chart& chart, const std::vector<Method>& methods,
   ChartResult result{chart, {}, {}, {}, std::nullopt};
   std::vector<Outcome> outcomes;
   for (const Method& method : methods)
-    for (const double cell : chart.grids) {
-      if (cell < chart.down_to * (1.0 - 1e-9) && !is_reference_method(chart, method)) {
+    for (std::size_t n = 0; n < chart.grids.size(); ++n) {
+      const double cell = chart.grids[n];
+      const bool too_dear = cell < chart.down_to * (1.0 - 1e-9) || n >= method.grids.value_or(n + 1);
+      if (too_dear && !is_reference_method(chart, method)) {
         result.left_out.push_back(fmt::format("{} on {}", method.name, cell_label(cell)));
         continue;
       }

@@ -1,6 +1,7 @@
 #include "compare/study/study_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 #include <stdexcept>
@@ -12,11 +13,16 @@ namespace granvof::compare {
 namespace {
 
 Method read_method(const TomlEntry& entry) {
-  entry.allow_only({"name", "set", "about"});
+  entry.allow_only({"name", "set", "about", "grids"});
   Method method;
   method.name = entry.text("name");
   if (entry.has("set")) method.set = entry.assignments("set");
   if (entry.has("about")) method.about = entry.text("about");
+  if (entry.has("grids")) {
+    const double grids = entry.positive("grids");
+    if (grids != std::floor(grids)) entry.fail("grids", fmt::format("{} given; allowed: 1, 2, ...", grids));
+    method.grids = static_cast<std::size_t>(grids);
+  }
   return method;
 }
 

@@ -15,6 +15,8 @@ struct Method {
   std::string name;
   std::vector<std::string> set;  // overrides "key=value"; empty: the case as it is
   std::string about;
+  // On this many of the largest cells only, for a method that is too dear on the others; nothing: on all.
+  std::optional<std::size_t> grids = std::nullopt;
 };
 
 // Overrides that depend on the scene.

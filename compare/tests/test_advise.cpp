@@ -9,8 +9,8 @@
 namespace granvof::compare {
 namespace {
 
-const Method plain{"plain", {}, ""};
-const Method sharp{"sharp", {"numerics.solid_flux=limited"}, ""};
+const Method plain{"plain", {}, "", std::nullopt};
+const Method sharp{"sharp", {"numerics.solid_flux=limited"}, "", std::nullopt};
 const Part no_les{"no LES", {"model.les=false"}, std::nullopt, ""};
 const Part algebraic{"algebraic", {"model.granular_temperature=algebraic"}, std::nullopt, ""};
 const Part off{"off", {"model.granular_temperature=off"}, std::nullopt, ""};
@@ -62,6 +62,16 @@ TEST(Advise, TakesTheCheapestMethodOnTheCoarsestGridThatMeetsTheTolerance) {
   EXPECT_EQ(name_of(advice.confirmation->configuration), "sharp on 2.5 mm");
   EXPECT_NEAR(*advice.moved, 0.0125, 1e-12);
   EXPECT_EQ(bench.trials, 3);  // two methods on one grid, and the confirmation
+}
+
+TEST(Advise, AMethodForCoarseGridsIsNotTriedOnOthers) {
+  FakeBench bench;
+  bench.result = first_order;
+  Method coarse = sharp;
+  coarse.grids = 1;
+  const Advice advice = advise(cells, {coarse}, {}, 0.02, bench);
+  EXPECT_FALSE(advice.chosen);
+  EXPECT_EQ(advice.steps.size(), 1u);
 }
 
 TEST(Advise, RefusesWhatMeetsTheToleranceByAccident) {

@@ -1,9 +1,9 @@
-"""Charts of error against cost, and their place in the report, from made-up studies."""
+"""Charts of error against cost, and their section of the report, from made-up studies."""
 
 import json
 
 import pytest
-from report import charts, report
+from report import charts, sections
 
 METHODS = [{"name": "first", "set": [], "about": "the paper's"}, {"name": "second", "set": ["a.b=1"], "about": ""}]
 
@@ -55,12 +55,12 @@ def test_a_chart_without_a_reference_is_not_drawn(drawn):
 
 def test_missing_charts_are_named(tmp_path, capsys):
     assert charts.main(["--charts", str(tmp_path)]) == 2
-    assert "no charts.json" in capsys.readouterr().err
+    assert "no points.json" in capsys.readouterr().err
 
 
-def test_the_report_shows_charts_and_ablations(verify_directory):
-    (verify_directory.parent / "charts").mkdir()
-    (verify_directory.parent / "charts/charts.json").write_text(json.dumps(study()))
+def test_the_report_shows_charts_and_ablations(tmp_path):
+    (tmp_path / "charts").mkdir()
+    (tmp_path / "charts/points.json").write_text(json.dumps(study()))
     ablated = {"scene": "s1", "set": [], "version": "0.1.0", "case_hash": "0123456789abcdef", "host": "A Processor",
                "metrics": [{"metric": "run_out@10", "unit": "-", "tolerance": "0.05 [-]", "full": 2.2}],
                "rows": [{"part": part, "set": [], "about": "", "applies": applies, "failure": failure, "dispensable": False,
@@ -69,14 +69,14 @@ def test_the_report_shows_charts_and_ablations(verify_directory):
                             ("full model", True, "", [{"value": 2.2, "change": 0.0, "tolerance": 0.05, "beyond": False}]),
                             ("no LES", True, "", [{"value": 2.5, "change": 0.3, "tolerance": 0.05, "beyond": True}]),
                             ("Theta off", True, "step collapse", []), ("2D", False, "in 2D already", [])]]}
-    (verify_directory.parent / "ablate/s1").mkdir(parents=True)
-    (verify_directory.parent / "ablate/s1/ablate.json").write_text(json.dumps(ablated))
-    assert report.main(["--verify", str(verify_directory)]) == 0
-    page = (verify_directory / "report.html").read_text()
-    assert 'id="error-cost-s1"' in page
-    assert "for 10 % use &lt;first&gt;" in page
-    assert "left out for their cost: second on 0.625 mm" in page
-    assert "<strong>0.3</strong>" in page
-    assert "failed: step collapse" in page
-    assert "in 2D already" not in page
-    assert (verify_directory / "plots/error-cost-s1.pdf").exists()
+    (tmp_path / "ablate/s1").mkdir(parents=True)
+    (tmp_path / "ablate/s1/ablate.json").write_text(json.dumps(ablated))
+    picture = tmp_path / "picture.png"
+    assert charts.main(["--charts", str(tmp_path / "charts"), "--picture", str(picture)]) == 0
+    assert 1000 < picture.stat().st_size < 100_000
+    assert (tmp_path / "charts/error-cost-s1.pdf").exists()
+    (shown,) = sections.read_all(tmp_path)
+    assert [figure["name"] for figure in shown.figures] == ["charts-error-cost-s1"]
+    assert "s1: for 10 % use <first>" in shown.text
+    assert any("left out for their cost: second on 0.625 mm" in text for text in shown.text)
+    assert shown.tables[0]["rows"] == [["full model", "2.2", 2.0], ["no LES", "+0.3 *", 2.0], ["Theta off", "failed", 2.0]]

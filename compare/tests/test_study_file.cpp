@@ -104,6 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"method = \"second\"", "method = \"third\"", "no [[method]] has the name 'third'"},
         Wrong{"quantity = \"run_out@5\"", "quantity = \"run_out@five\"", "expected NAME or NAME@NUMBER"},
         Wrong{"quantity = \"run_out@5\"", "quantity = \"reach\"", "'reach' given; allowed: run_out"},
+        Wrong{"set = [\"numerics.solid_flux=limited\"]", "grids = 1.5", "allowed: 1, 2"},
         Wrong{"down_to = 0.0025", "downto = 0.0025", "unknown key"}));
 
 }  // namespace
