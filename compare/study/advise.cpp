@@ -82,6 +82,7 @@ class Walk {
 
   // Parts that alone move the result little and save something.
   std::vector<Screened> screen(std::size_t grid) {
+    if (parts_.empty()) return {};
     const Configuration full{cells_[grid > 0 ? grid - 1 : grid], advice_.chosen->configuration.method, {}};
     const Trial with_all = bench_.trial(full);
     std::vector<Screened> found;

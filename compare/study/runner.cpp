@@ -94,7 +94,7 @@ std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene,
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(directory.parent_path(), missing)) {
     const auto note = read_note(entry.path());
-    if (!note) continue;
+    if (!note || !fs::exists(entry.path() / "run.json")) continue;
     if (note->at("set") == nlohmann::json(job.set) ||
         read_facts(entry.path() / "run.json").resolved_case == scene.resolved)
       earlier.emplace_back(entry.last_write_time(), entry.path());
@@ -143,6 +143,7 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
   note["failure"] = failure;
   note["core_seconds"] = costs;
   note["work_unit_seconds"] = sum / static_cast<double>(units.size());
+  fs::create_directories(directory);        // a run that was ended at once has not made it
   fs::remove(directory / "checkpoint.h5");  // nothing goes on from here
   write_file_atomically(directory / note_file, note.dump(1) + "\n");
   Outcome outcome = outcome_of(directory, note, scene);
