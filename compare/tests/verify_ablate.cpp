@@ -91,22 +91,5 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   fs::remove_all(root);
 }
 
-TEST(Runner, AFailedRunIsKeptAsFailed) {
-  const fs::path root = fs::path(testing::TempDir()) / "failing";
-  fs::remove_all(root);
-  RunnerOptions options{GRANVOF_PROGRAM, root};
-  options.progress = false;
-  options.timeout = 0.01;
-  const Job job{fs::path(GRANVOF_CASES_DIR) / "canary.toml", {"grid.dx=0.00125"}};
-  for (const bool kept : {false, true}) {
-    CachedRunner runner(options);
-    const Outcome outcome = runner.run(job);
-    EXPECT_FALSE(outcome.run);
-    EXPECT_EQ(outcome.kept, kept);
-    EXPECT_NE(outcome.failure.find("ended after 0.01 s"), std::string::npos) << outcome.failure;
-  }
-  fs::remove_all(root);
-}
-
 }  // namespace
 }  // namespace granvof::compare
