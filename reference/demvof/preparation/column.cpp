@@ -92,7 +92,8 @@ Column prepare_column(const ColumnSettings& s) {
   std::vector<double> floor;
   for (std::size_t n = 0; n + 2 < s.floor.size(); n += 3) {
     const double x = s.floor[n] - s.lower[0];
-    // Also those that reach under the column from beside it: it must not stand in them when the gate is closed.
+    // Also those that reach under the column from beside it: it must not stand in them when the gate is
+    // closed.
     if (x > -d && x < length + d)
       floor.insert(floor.end(), {x, s.floor[n + 1] - s.lower[1], s.floor[n + 2] - s.lower[2]});
   }
