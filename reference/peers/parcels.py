@@ -35,7 +35,9 @@ writeControl timeStep; writeInterval 1; writeFormat ascii; writePrecision 12; ti
 maxCo 1e9; maxAlphaCo 1e9; maxDeltaT {FILLING_STEP}; adjustTimeStep no;
 """)
     run_program(filling)
-    shutil.copytree(filling / f"{FILLING_STEP:g}" / "lagrangian", directory / "0/lagrangian")
+    filled = filling / f"{FILLING_STEP:g}"
+    shutil.copytree(filled / "lagrangian", directory / "0/lagrangian")
+    shutil.copy(filled / "alphac", directory / "0/alphac")  # for the output; the program makes its own
 
 
 def positions(box, spacing, per_cell, flat, seed=1):

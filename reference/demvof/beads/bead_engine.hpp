@@ -30,6 +30,8 @@ class BeadEngine {
   ~BeadEngine();
   BeadEngine(const BeadEngine&) = delete;
   BeadEngine& operator=(const BeadEngine&) = delete;
+  BeadEngine(BeadEngine&&) = delete;
+  BeadEngine& operator=(BeadEngine&&) = delete;
 
   void set_load(const FluidLoad& load);
   // Advance by `steps` DEM steps. Throws std::runtime_error when a bead has left the tank.

@@ -74,7 +74,7 @@ class Chute {
       load += mass * down;
       volume += now.solid[bin + 1];
       flux += now.solid[bin + 1] * now.velocity[bin + 1];
-      const double edge = static_cast<double>(bin + 1);
+      const auto edge = static_cast<double>(bin + 1);
       if (edge < bottom_left_out || load < surface_left_out * s_.diameter * rest_packing * s_.density * down)
         continue;
       const double rate = (now.velocity[bin + 1] - now.velocity[bin]) / s_.diameter;
@@ -155,6 +155,7 @@ ChuteResult run_chute(const ChuteSettings& s) {
   for (const double slope : s.slopes) {
     chute.engine().set_gravity(s.gravity, slope);
     std::vector<Profile> windows;
+    windows.reserve(windows_per_stage);
     const double begin = chute.engine().time();
     for (int w = 0; w < windows_per_stage; ++w) windows.push_back(chute.window(steps));
     for (std::size_t w = 1; w + 1 < windows.size(); ++w) {

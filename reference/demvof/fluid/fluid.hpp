@@ -73,6 +73,8 @@ class Fluid {
   ~Fluid();
   Fluid(const Fluid&) = delete;
   Fluid& operator=(const Fluid&) = delete;
+  Fluid(Fluid&&) = delete;
+  Fluid& operator=(Fluid&&) = delete;
 
   // A plate on the cell faces at x = face * spacing[0]: open[j] is the share of the face in row j through
   // which fluid passes, 0 closed to 1 open. An empty vector removes the plate.
