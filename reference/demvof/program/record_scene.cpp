@@ -156,7 +156,8 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   progress.cells = static_cast<std::int64_t>(run.solid_fraction().size());
   progress.monitors["seed"] = options.seed;
   progress.monitors["beads"] = static_cast<double>(beads.count());
-  progress.monitors["floor_beads"] = static_cast<double>(floor.size() / 3);
+  const std::size_t floor_count = floor.size() / 3;
+  progress.monitors["floor_beads"] = static_cast<double>(floor_count);
   progress.monitors["prepared_packing"] = column.packing;
   progress.monitors["prepared_height_m"] = column.height;
   progress.monitors["slice_depth_m"] = depth_of(scene);
