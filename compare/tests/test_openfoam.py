@@ -44,6 +44,14 @@ def test_fields_keep_their_place_and_order(case, tmp_path):
         assert (file["t0001/f_s"][:] == 0).all()
 
 
+def test_where_there_are_parcels_the_solid_fraction_is_what_the_fluid_leaves(case, tmp_path):
+    (case / "10/alphac").write_text(field([0.43] * 8))
+    from_openfoam.convert(case, tmp_path / "theirs.h5")
+    with h5py.File(tmp_path / "theirs.h5") as file:
+        assert np.allclose(file["t0002/f_s"][:], 0.57)
+        assert np.allclose(file["t0002/alpha"][0, 1, 2], 6)
+
+
 def refusal(case):
     with pytest.raises(from_openfoam.CaseError) as error:
         from_openfoam.convert(case, case / "theirs.h5")
