@@ -60,10 +60,6 @@ int run(const Arguments& arguments) {
 
 int chute(const Arguments& arguments) {
   const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
-  if (!scene.reference) {
-    throw granvof::CaseError(
-        fmt::format("{}: no [reference] table: its beads are not known", arguments.case_file));
-  }
   demvof::RecordOptions options = arguments.record;
   if (options.out.empty())
     options.out = fmt::format("out/reference/bulk-friction/{}/seed{}", scene.name, options.seed);

@@ -31,6 +31,7 @@ std::string series_text(const ChuteResult& result) {
 }  // namespace
 
 int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
+  check_beads(scene);
   const auto clock = std::chrono::steady_clock::now();
   const std::string date = granvof::iso_date_now();
   ChuteSettings chute;

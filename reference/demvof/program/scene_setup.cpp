@@ -63,8 +63,15 @@ double overlap(double from, double to, double lower, double upper) {
 
 }  // namespace
 
-void check_scene(const Scene& scene) {
+void check_beads(const Scene& scene) {
   if (!scene.reference) refuse(scene, "it has no [reference] table");
+  if (scene.reference->young < 5e6) {
+    refuse(scene, fmt::format("reference.young is {}, allowed: >= 5e6 Pa", scene.reference->young));
+  }
+}
+
+void check_scene(const Scene& scene) {
+  check_beads(scene);
   if (!scene.bed) refuse(scene, "it has no [bed]");
   if (scene.bed->slope != 90.0) refuse(scene, fmt::format("bed.slope is {}, allowed: 90", scene.bed->slope));
   const std::size_t sides = flat(scene) ? 4 : 6;
@@ -84,9 +91,6 @@ void check_scene(const Scene& scene) {
                       "that it does",
                       scene.gate->position));
     }
-  }
-  if (scene.reference->young < 5e6) {
-    refuse(scene, fmt::format("reference.young is {}, allowed: >= 5e6 Pa", scene.reference->young));
   }
 }
 

@@ -10,7 +10,10 @@
 
 namespace demvof {
 
-// Throws granvof::CaseError, naming the key, for what demvof does not compute: a scene without a bed,
+// Throws granvof::CaseError for a scene without [reference], and for beads that LIGGGHTS does not accept.
+void check_beads(const granvof::Scene& scene);
+
+// The same, and for what else demvof does not compute, naming the key: a scene without a bed,
 // periodic or moving walls, a sloping bed, walls that only beads feel as Coulomb walls.
 void check_scene(const granvof::Scene& scene);
 
