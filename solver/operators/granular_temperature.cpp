@@ -43,7 +43,10 @@ GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, c
       conductivity_(grid),
       kappa_(grid),
       mass_(grid),
-      rhs_(grid) {}
+      rhs_(grid),
+      collisions_(grid),
+      drag_(grid),
+      excess_(grid) {}
 
 // (f_s Theta) carried by the solid flux, upwind: a convex combination of old values, so Theta stays positive.
 void GranularTemperature::convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
@@ -91,9 +94,9 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
 // Local balance of (7), divided by w = sqrt(Theta): 3 f rho dw/dt = A S^2 - G w^2 - (3 beta + B) w, implicit
 // in w. Quadratic with one positive root: stays positive, needs no seed. The algebraic form drops the time
 // term.
-void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceField& beta,
-                                  const Rheology& rheology, const StrainRate& strain,
-                                  Field& theta_new) const {
+GranularLosses GranularTemperature::balance(double dt, const Field& f_s_new, const FaceField& beta,
+                                            const Rheology& rheology, const StrainRate& strain,
+                                            Field& theta_new) {
   const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter,
                f_max = scene_.contact.solid_fraction_max;
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
@@ -101,14 +104,17 @@ void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceFie
   const double bound = largest_granular_temperature(scene_);
   const double *f_s = f_s_new.data(), *e_cell = rheology.restitution.data();
   const double *sq = strain.squared.data(), *div = strain.divergence.data();
-  double* t = theta_new.data();
+  double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
+         *excess = excess_.data();
   std::array<const double*, 3> b{};
   for (int d = 0; d < grid_.dim; ++d) b[d] = beta[d].data();
   const int dim = grid_.dim;
   const auto stride = grid_.cells.stride;
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     const double f = f_s[c];
+    collided[c] = dragged[c] = 0.0;
     if (f < least_collisional_fraction) {
+      excess[c] = 1.5 * f * rho_s * t[c];
       t[c] = 0.0;
       return;
     }
@@ -128,7 +134,8 @@ void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceFie
     const double production =
         f * mu * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
     const double collisions = closures::collisional_dissipation_rate(f, e, g0, rho_s, d_s);
-    double expansion = -3.0 * (1.0 - e * e) * f * f * rho_s * g0 * div[c];
+    const double of_collisions = -3.0 * (1.0 - e * e) * f * f * rho_s * g0 * div[c];
+    double expansion = of_collisions;
     if (work) expansion += closures::kinetic_pressure(f, 1.0, e, g0, rho_s) * div[c];
     // A growing term (grains under compression) is taken explicitly, as the work of the old Theta's pressure,
     // which is the pressure the momentum felt: implicit in w it has a pole near div u_s dt = -3 and creates
@@ -138,15 +145,25 @@ void GranularTemperature::balance(double dt, const Field& f_s_new, const FaceFie
     const double w_start = steady ? 0.0 : std::sqrt(t[c] * (1.0 + 2.0 * growth / inertia));
     const double w = closures::positive_root(collisions, inertia + decay, production + inertia * w_start);
     t[c] = std::fmin(w * w, bound);
+    excess[c] = 1.5 * f * rho_s * (w * w - t[c]);
+    collided[c] = dt * (collisions * w + of_collisions) * w * w;
+    dragged[c] = dt * 3.0 * drag * w * w;
   });
+  const auto total = [&](const Field& loss) {
+    const double* l = loss.data();
+    return grid_.cell_volume *
+           sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return l[c]; });
+  };
+  return {total(collisions_), total(drag_), total(excess_)};
 }
 
-void GranularTemperature::advance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                                  const FaceField& flux_s, const FaceField& beta, const Rheology& rheology,
-                                  const StrainRate& strain, Field& theta_new) {
+GranularLosses GranularTemperature::advance(double dt, const Field& theta, const Field& f_s,
+                                            const Field& f_s_new, const FaceField& flux_s,
+                                            const FaceField& beta, const Rheology& rheology,
+                                            const StrainRate& strain, Field& theta_new) {
   switch (scene_.model.granular_temperature) {
     case TemperatureModel::off:
-      return;  // stays zero
+      return {};  // Theta stays zero
     case TemperatureModel::transported:
       convect(dt, theta, f_s, f_s_new, flux_s, theta_new);
       conduct(dt, f_s_new, rheology, theta_new);
@@ -154,7 +171,7 @@ void GranularTemperature::advance(double dt, const Field& theta, const Field& f_
     case TemperatureModel::algebraic:
       break;
   }
-  balance(dt, f_s_new, beta, rheology, strain, theta_new);
+  return balance(dt, f_s_new, beta, rheology, strain, theta_new);
 }
 
 }  // namespace granvof

@@ -5,6 +5,7 @@
 
 #include "solver/closures/smagorinsky.hpp"
 #include "solver/operators/edge_mean.hpp"
+#include "solver/operators/stress_power.hpp"
 
 namespace granvof {
 
@@ -52,6 +53,27 @@ void FluidViscosity::add_acceleration(const FaceField& u_c, const FaceInertia& i
       out[c] += (ahead - behind) * inv_he / m[c];
     });
   }
+}
+
+FluidViscosity::Power FluidViscosity::power(const Boundary& boundary) const {
+  const double *mu = viscosity_.data(), *normal = strain_.normal_squared.data();
+  Power power;
+  power.dissipation =
+      sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return 2.0 * mu[c] * normal[c]; });
+  const auto stress = [&](int d, int e, std::ptrdiff_t c) {
+    return edge_mean(mu, c, grid_.stride(d), grid_.stride(e)) * strain_.shear[plane_index(d, e)][c];
+  };
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const double* g = strain_.shear[plane_index(d, e)].data();
+      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+      power.dissipation +=
+          sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) { return edge_mean(mu, c, s, t) * g[c] * g[c]; });
+    }
+  }
+  power.dissipation *= grid_.cell_volume;
+  power.walls = wall_power(grid_, boundary, stress);
+  return power;
 }
 
 }  // namespace granvof

@@ -23,6 +23,13 @@ class FluidViscosity {
   // f_c (mu_c + mu_t) of the cells [Pa s], ghosts filled.
   const Field& of_cells() const { return viscosity_; }
 
+  // Power [W] of that stress at the velocity of the last update.
+  struct Power {
+    double dissipation = 0.0;  // int 2 f_c (mu_c + mu_t) S:S dV, LES included
+    double walls = 0.0;        // given by moving walls
+  };
+  Power power(const Boundary& boundary) const;
+
  private:
   const Grid& grid_;
   const Scene& scene_;

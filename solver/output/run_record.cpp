@@ -80,6 +80,14 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
   json["liquid_volume_error"] = progress.liquid_volume_error;
   json["solid_fraction_max"] = progress.solid_fraction_max;
   json["monitors"] = progress.monitors;
+  json["warnings"] = ordered_json::array();
+  for (const Warning& w : progress.warnings) {
+    json["warnings"].push_back({{"monitor", w.monitor},
+                                {"time", w.time},
+                                {"value", w.value},
+                                {"limit", w.limit},
+                                {"meaning", w.meaning}});
+  }
   json["exit"] = {
       {"state", exit_state_name(exit.state)}, {"reason", exit.reason}, {"time", progress.simulated_time}};
   json["host"] = host_json();

@@ -25,6 +25,15 @@ struct RunStart {
   int threads = 1;  // of each rank
 };
 
+// A monitor that passed its limit.
+struct Warning {
+  std::string monitor;
+  double time = 0.0;   // of the first passing [s]
+  double value = 0.0;  // the worst
+  double limit = 0.0;
+  std::string meaning;
+};
+
 // What is known while it goes on, over all resumed parts of the run.
 struct RunProgress {
   std::int64_t steps = 0;
@@ -38,6 +47,7 @@ struct RunProgress {
   double liquid_volume_error = 0.0;        // [-]
   double solid_fraction_max = 0.0;         // largest f_s that ever occurred [-]
   std::map<std::string, double> monitors;  // further numbers of the program (iterations, energies, ...)
+  std::vector<Warning> warnings;           // monitors that passed their limits
 };
 
 struct RunExit {

@@ -54,7 +54,9 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
                   {"liquid_left", v.liquid_left},
                   {"solid_error", v.solid_error},
                   {"liquid_error", v.liquid_error},
-                  {"solid_max", v.solid_max}};
+                  {"solid_max", v.solid_max},
+                  {"solid_min", v.solid_min}};
+  for (const EnergyTerm& term : energy_terms) view.scalars[term.name] = s.energy.*term.value;
   return view;
 }
 
@@ -65,6 +67,7 @@ void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& c
     const std::vector<double>& values = saved.array(name, f.span().size());
     std::copy(values.begin(), values.end(), f.span().begin());
   });
+  for (const EnergyTerm& term : energy_terms) s.energy.*term.value = saved.scalar(term.name);
   for_each_counter(counters, [&](const char* name, std::int64_t& value) { value = saved.counter(name); });
   counters.next_field = static_cast<std::size_t>(saved.counter("next_field"));
   counters.next_row = saved.scalar("next_row");
@@ -72,7 +75,8 @@ void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& c
   counters.core_seconds = saved.scalar("core_seconds");
   control.restore(saved.scalar("last_dt"));
   monitors.restore({saved.scalar("solid_volume"), saved.scalar("liquid_volume"), saved.scalar("liquid_left"),
-                    saved.scalar("solid_error"), saved.scalar("liquid_error"), saved.scalar("solid_max")});
+                    saved.scalar("solid_error"), saved.scalar("liquid_error"), saved.scalar("solid_max"),
+                    saved.scalar("solid_min")});
 }
 
 }  // namespace granvof

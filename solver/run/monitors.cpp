@@ -30,6 +30,8 @@ void Monitors::update(const State& s, double liquid_left) {
         std::max(liquid_error_, std::fabs(liquid_volume(s) + liquid_left_ - liquid_volume_) / liquid_volume_);
   const double* f = s.f_s.data();
   solid_max_ = max_over(grid_.cells, grid_.all_cells(), solid_max_, [=](std::ptrdiff_t c) { return f[c]; });
+  solid_min_ =
+      -max_over(grid_.cells, grid_.all_cells(), -solid_min_, [=](std::ptrdiff_t c) { return -f[c]; });
 }
 
 std::string Monitors::not_finite(const State& s) const {
@@ -57,6 +59,7 @@ void Monitors::restore(const Values& v) {
   solid_error_ = v.solid_error;
   liquid_error_ = v.liquid_error;
   solid_max_ = v.solid_max;
+  solid_min_ = v.solid_min;
 }
 
 }  // namespace granvof

@@ -18,14 +18,15 @@ class Monitors {
   double solid_volume_error() const { return solid_error_; }    // largest relative change so far [-]
   double liquid_volume_error() const { return liquid_error_; }  // the same, outflow accounted for [-]
   double solid_fraction_max() const { return solid_max_; }      // largest ever [-]
+  double solid_fraction_min() const { return solid_min_; }      // smallest ever [-]
   // Empty, or which field is not finite.
   std::string not_finite(const State& s) const;
 
   struct Values {
-    double solid_volume, liquid_volume, liquid_left, solid_error, liquid_error, solid_max;
+    double solid_volume, liquid_volume, liquid_left, solid_error, liquid_error, solid_max, solid_min;
   };
   Values values() const {
-    return {solid_volume_, liquid_volume_, liquid_left_, solid_error_, liquid_error_, solid_max_};
+    return {solid_volume_, liquid_volume_, liquid_left_, solid_error_, liquid_error_, solid_max_, solid_min_};
   }
   void restore(const Values& v);
 
@@ -35,7 +36,7 @@ class Monitors {
 
   const Grid& grid_;
   double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0;
-  double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0;
+  double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0, solid_min_ = 1.0;
 };
 
 }  // namespace granvof

@@ -11,6 +11,7 @@
 
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_writer.hpp"
+#include "solver/run/alarms.hpp"
 #include "solver/run/checkpoint_state.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/run/progress_line.hpp"
@@ -32,13 +33,16 @@ double core_seconds() {
 }
 
 std::vector<Column> monitor_columns() {
-  return {{"dt", "s", "last time step"},
-          {"newton", "-", "Newton iterations of the last step"},
-          {"linear", "-", "iterations of the coupled pressure solver in the last step"},
-          {"friction_iterations", "-", "iterations of the friction solver in the last step"},
-          {"solid_volume_error", "-", "largest relative change of the solid volume so far"},
-          {"liquid_volume_error", "-",
-           "largest relative change of the liquid volume so far, outflow accounted for"}};
+  std::vector<Column> columns{
+      {"dt", "s", "last time step"},
+      {"newton", "-", "Newton iterations of the last step"},
+      {"linear", "-", "iterations of the coupled pressure solver in the last step"},
+      {"friction_iterations", "-", "iterations of the friction solver in the last step"},
+      {"solid_volume_error", "-", "largest relative change of the solid volume so far"},
+      {"liquid_volume_error", "-",
+       "largest relative change of the liquid volume so far, outflow accounted for"}};
+  for (const EnergyTerm& term : energy_terms) columns.push_back({term.name, "J", term.meaning});
+  return columns;
 }
 
 // One run: everything that lives from the first step to the last.
@@ -54,6 +58,8 @@ class Run {
         now_(initial_state(grid_, scene, boundary_)),
         next_(grid_),
         monitors_(grid_, scene, now_),
+        start_energy_(now_.energy),
+        alarms_(scene, start_energy_),
         writer_(open_writer()),
         progress_line_(options.progress, scene) {}
 
@@ -62,7 +68,7 @@ class Run {
  private:
   RunWriter open_writer();
   int loop();
-  bool advance();  // one accepted step; false if the step collapsed
+  bool advance();  // one accepted step; false if the run cannot go on, see trouble_
   void write_due_output(bool force);
   void checkpoint();
   RunProgress progress() const;
@@ -77,6 +83,8 @@ class Run {
   StepControl control_;
   State now_, next_;
   Monitors monitors_;
+  EnergyTerms start_energy_;  // of the scene's start, whatever it is resumed from
+  Alarms alarms_;
   RunCounters counters_;
   StepReport last_;
   std::string trouble_;
@@ -126,7 +134,8 @@ bool Run::advance() {
   counters_.friction += last_.friction.iterations;
   counters_.unconverged_friction += last_.friction.converged ? 0 : 1;
   ++counters_.steps;
-  return true;
+  trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
+  return trouble_.empty();
 }
 
 void Run::write_due_output(bool force) {
@@ -137,12 +146,13 @@ void Run::write_due_output(bool force) {
   const bool row_due = force || field_due || now_.time >= counters_.next_row - 1e-9 * times.end;
   if (!row_due) return;
   const CellFields fields = cell_fields(grid_, now_);
-  const std::vector<Value> row{control_.last(),
-                               static_cast<double>(last_.pressure.newton),
-                               static_cast<double>(last_.pressure.linear),
-                               static_cast<double>(last_.friction.iterations),
-                               monitors_.solid_volume_error(),
-                               monitors_.liquid_volume_error()};
+  std::vector<Value> row{control_.last(),
+                         static_cast<double>(last_.pressure.newton),
+                         static_cast<double>(last_.pressure.linear),
+                         static_cast<double>(last_.friction.iterations),
+                         monitors_.solid_volume_error(),
+                         monitors_.liquid_volume_error()};
+  for (const EnergyTerm& term : energy_terms) row.emplace_back(now_.energy.*term.value);
   writer_.write_series_row(now_.time, row, extract_scalars(fields, scene_));
   while (counters_.next_row <= now_.time + 1e-9 * times.end) counters_.next_row += times.series_interval;
   if (field_due) {
@@ -169,7 +179,10 @@ RunProgress Run::progress() const {
                 {"linear_per_step", static_cast<double>(counters_.linear) / steps},
                 {"friction_per_step", static_cast<double>(counters_.friction) / steps},
                 {"unconverged_friction_solves", static_cast<double>(counters_.unconverged_friction)},
-                {"last_dt", control_.last()}};
+                {"last_dt", control_.last()},
+                {"energy_turnover", energy_turnover(start_energy_, now_.energy)}};
+  for (const EnergyTerm& term : energy_terms) p.monitors[term.name] = now_.energy.*term.value;
+  p.warnings = alarms_.raised();
   return p;
 }
 

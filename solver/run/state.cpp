@@ -1,6 +1,7 @@
 #include "solver/run/state.hpp"
 
 #include "solver/operators/mixture.hpp"
+#include "solver/run/energy_budget.hpp"
 #include "solver/scene/fill.hpp"
 
 namespace granvof {
@@ -67,6 +68,7 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
     }
   }
   s.fill_ghosts(boundary);
+  s.energy = EnergyBudget(grid, scene).stored(s);
   return s;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/grid/boundary.hpp"
+#include "solver/run/energy_terms.hpp"
 
 namespace granvof {
 
@@ -14,6 +15,7 @@ struct State {
   Field phi;           // colour of the solid [-]
   FaceField u_s, u_c;  // velocities on faces [m/s]
   FaceField u_strain;  // u_s after the friction step: the velocity whose strain sets the next friction [m/s]
+  EnergyTerms energy;  // stored now, and where it went since the start [J]
 
   explicit State(const Grid& grid);
   void fill_ghosts(const Boundary& boundary);

@@ -34,6 +34,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       interface_(grid, scene, boundary),
       temperature_(grid, scene, boundary, communicator),
       strain_(grid),
+      budget_(grid, scene),
       predicted_s_(grid),
       predicted_c_(grid),
       mass_(grid),
@@ -94,12 +95,14 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     boundary_.fill_scalar(next.f_s, 0.0);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
+  GranularLosses granular;
   cost_.time("granular temperature", [&] {
     strain_.update(grid_, next.u_s);
-    temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta(), rheology_, strain_,
-                         next.theta);
+    granular = temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta(), rheology_,
+                                    strain_, next.theta);
   });
   next.fill_ghosts(boundary_);
+  cost_.time("energy budget", [&] { account_energy(now, dt, granular, report.liquid_left, next); });
   report.accepted = true;
   return report;
 }
@@ -186,6 +189,15 @@ bool TimeStep::bears_explicit_viscosity(double dt) const {
   for (int d = 0; d < grid_.dim; ++d)
     if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
   return kinematic_viscosity_ * dt * inverse_squares <= explicit_viscous_number;
+}
+
+void TimeStep::account_energy(const State& now, double dt, const GranularLosses& granular, double liquid_left,
+                              State& next) {
+  const FluidViscosity::Power viscous = viscosity_.power(boundary_);
+  const Friction::Power stress = friction_.power(mass_, next.u_strain, next.u_s);
+  next.energy.add(budget_.of_step(dt, now, next,
+                                  {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_,
+                                   rheology_, strain_, viscous, stress, granular, liquid_left}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

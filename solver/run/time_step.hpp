@@ -12,6 +12,7 @@
 #include "solver/operators/interphase_drag.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/operators/viscosity.hpp"
+#include "solver/run/energy_budget.hpp"
 #include "solver/run/state.hpp"
 #include "solver/run/stopwatch.hpp"
 
@@ -46,6 +47,8 @@ class TimeStep {
   void add_to_predictor(const BodyAcceleration& extra, double dt);
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
   bool bears_explicit_viscosity(double dt) const;
+  void account_energy(const State& now, double dt, const GranularLosses& granular, double liquid_left,
+                      State& next);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;
@@ -62,6 +65,7 @@ class TimeStep {
   InterfaceTransport interface_;
   GranularTemperature temperature_;
   StrainRate strain_;
+  EnergyBudget budget_;
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
   FaceField mass_, rhs_;                 // of the implicit solid momentum
   FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]

@@ -1,0 +1,1 @@
+"""The border between holding and failing, axis by axis: compare/stability."""

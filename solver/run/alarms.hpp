@@ -1,0 +1,43 @@
+// What a run must not do silently: bounds on its monitors, and the first time each was passed.
+//
+// A solver that fails loudly costs an afternoon, one that is wrong silently costs a paper. Every accepted
+// step is held against these limits; the first passing warns on stderr, and run.json lists all with their
+// worst value. A run that has more energy in motion than it was ever given is stopped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/output/run_record.hpp"
+#include "solver/run/monitors.hpp"
+
+namespace granvof {
+
+// Shares of the energy that was turned over: all dissipation, numerical included by magnitude, and the
+// largest kinetic energy. A tank at rest turns nothing over, hence the share of what it stores at least.
+inline constexpr double least_turnover = 1e-9;
+double energy_turnover(const EnergyTerms& start, const EnergyTerms& now);
+
+struct StepCounts {
+  std::int64_t steps = 0, unconverged_friction = 0;
+};
+
+class Alarms {
+ public:
+  Alarms(const Scene& scene, const EnergyTerms& start) : scene_(scene), start_(start) {}
+
+  // After an accepted step. Returns why the run must stop, or nothing.
+  std::string check(const State& s, const Monitors& monitors, const StepCounts& counts);
+
+  const std::vector<Warning>& raised() const { return raised_; }
+
+ private:
+  // value must not exceed limit
+  void watch(const char* monitor, double value, double limit, double time, const char* meaning);
+
+  const Scene& scene_;
+  EnergyTerms start_;
+  std::vector<Warning> raised_;
+};
+
+}  // namespace granvof

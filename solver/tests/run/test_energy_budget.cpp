@@ -1,0 +1,148 @@
+// The energy budget: it closes, its terms are the known ones where theory knows them, and it sees what is
+// wrong.
+#include <cmath>
+#include <cstring>
+
+#include "solver/closures/elastic_energy.hpp"
+#include "solver/tests/run/small_runs.hpp"
+
+namespace granvof {
+namespace {
+
+using test::column_scene;
+using test::Steps;
+
+double all_losses(const EnergyTerms& e) {
+  return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.residual;
+}
+
+// Energies and work were computed apart from each other: their sum is an identity.
+void expect_closed(const EnergyTerms& start, const EnergyTerms& now, double residual_share) {
+  const double turnover = now.physical() + std::fabs(now.numerical_time) + now.kinetic;
+  EXPECT_GT(turnover, 0.0);
+  EXPECT_NEAR(now.stored() - start.stored(), -all_losses(now), 1e-11 * start.stored());
+  EXPECT_LT(std::fabs(now.residual), residual_share * turnover);
+}
+
+TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
+  for (const char* change :
+       {"model.drag=true", "model.drag=false", "model.granular_temperature=off",
+        "model.granular_temperature=algebraic", "model.dilatancy_pressure=false",
+        "model.contact_friction=false", "numerics.solid_flux=limited", "bed.solid_fraction=0.61",
+        "walls.bottom.velocity=[0.1, 0]", "walls.all=slip", "liquid.level=0.08"}) {
+    SCOPED_TRACE(change);
+    Steps run(column_scene({change}));
+    const EnergyTerms start = run.now.energy;
+    run.until(0.05);
+    if (::testing::Test::HasFatalFailure()) return;
+    expect_closed(start, run.now.energy, 1e-3);
+    EXPECT_GE(run.now.energy.drag, 0.0);
+    EXPECT_GE(run.now.energy.friction, 0.0);
+    EXPECT_GE(run.now.energy.viscosity, 0.0);
+    EXPECT_GE(run.now.energy.numerical_time, 0.0);
+    if (std::strcmp(change, "model.drag=false") == 0) EXPECT_EQ(run.now.energy.drag, 0.0);
+    if (std::strcmp(change, "model.granular_temperature=off") == 0) EXPECT_EQ(run.now.energy.collisions, 0.0);
+  }
+}
+
+TEST(EnergyBudget, ClosesInThreeDimensions) {
+  constexpr std::string_view cube = R"([scene]
+name = "cube"
+dimensions = 3
+[tank]
+size = [0.08, 0.06, 0.04]
+[grid]
+dx = 0.01
+[walls]
+top = "open"
+[gas]
+density = 1
+viscosity = 1e-5
+[liquid]
+density = 1000
+viscosity = 1e-3
+level = 0.05
+[solid]
+density = 2500
+diameter = 0.8e-3
+friction = 0.4
+[bed]
+length = 0.04
+height = 0.03
+solid_fraction = 0.57
+[time]
+end = 0.1
+[output]
+series_interval = 0.1
+)";
+  Steps run(parse_scene(cube, "cube.toml", {"walls.front=periodic", "walls.back=periodic"}));
+  const EnergyTerms start = run.now.energy;
+  run.until(0.04);
+  expect_closed(start, run.now.energy, 1e-3);
+}
+
+// A solver that does not reach its tolerance leaves momentum or continuity unsolved: that is the residual.
+TEST(EnergyBudget, ResidualFollowsTheTolerance) {
+  double last = 0.0;
+  for (const char* tolerance : {"1e-8", "1e-5", "1e-2"}) {
+    Steps run(column_scene(
+        {std::string("numerics.volume_tolerance=") + tolerance, "numerics.linear_tolerance=0.1"}));
+    run.until(0.05);
+    const double residual = std::fabs(run.now.energy.residual);
+    EXPECT_GT(residual, 10.0 * last) << tolerance;
+    last = residual;
+  }
+}
+
+// Plane Couette flow of a liquid: what the moving lid gives is what viscosity takes.
+TEST(EnergyBudget, MovingWallGivesWhatViscosityTakes) {
+  constexpr std::string_view couette = R"([scene]
+name = "couette"
+dimensions = 2
+[tank]
+size = [0.04, 0.01]
+gravity = 0
+[grid]
+dx = 0.005
+dy = 0.001
+[walls]
+all = "no-slip"
+left = "periodic"
+right = "periodic"
+top = { velocity = [0.02, 0] }
+[gas]
+density = 1000
+viscosity = 0.1
+[model]
+les = false
+[time]
+end = 5
+[output]
+series_interval = 5
+)";
+  Steps run(parse_scene(couette, "couette.toml", {}));
+  run.until(4.0);
+  const EnergyTerms before = run.now.energy;
+  run.until(5.0);
+  const EnergyTerms& now = run.now.energy;
+  const double power = 0.1 * 0.02 * 0.02 / 0.01 * 0.04;  // mu (U / H)^2 H L, depth 1 m
+  EXPECT_NEAR(now.walls - before.walls, power, 1e-3 * power);
+  EXPECT_NEAR(now.viscosity - before.viscosity, power, 1e-3 * power);
+  EXPECT_NEAR(now.kinetic - before.kinetic, 0.0, 1e-6 * power);
+}
+
+// Stored by (13): P = f dE/df - E.
+TEST(EnergyBudget, ElasticEnergyIsTheIntegralOfItsPressure) {
+  const Contact contact;
+  const closures::ElasticEnergy energy(contact);
+  EXPECT_EQ(energy(0.5), 0.0);
+  EXPECT_EQ(energy(contact.solid_fraction_min), 0.0);
+  for (const double f : {0.571, 0.574, 0.58, 0.60, 0.61, 0.625, 0.64, 0.66}) {
+    const double step = 1e-5, slope = (energy(f + step) - energy(f - step)) / (2.0 * step);
+    const double pressure = closures::elastic_pressure(f, contact).value;
+    EXPECT_NEAR(f * slope - energy(f), pressure, 2e-4 * pressure) << f;
+  }
+}
+
+}  // namespace
+}  // namespace granvof
