@@ -21,7 +21,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build verify test reference plots charts nightly bench format tidy sanitize
+.PHONY: help setup build verify test reference plots charts stability nightly bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -56,6 +56,10 @@ charts: setup  ## error against cost of every method (compare/study.toml): runs 
 	ci/build --programs release
 	$(RELEASE)/compare/granvof-compare charts --cache $(OUT)/study --out $(OUT)/charts $(if $(SCENE),--scene $(SCENE))
 	$(PYTHON) compare/report/charts.py --charts $(OUT)/charts
+
+stability: setup  ## where the methods hold and fail, by bisection (half an hour); out/stability, drawn by `make plots`
+	ci/build --programs release
+	compare/stability --build-dir $(RELEASE) --out $(OUT)
 
 nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "compare/input/curves.hpp"
+#include "compare/input/energy_budget.hpp"
 #include "compare/metrics/base_pressure.hpp"
 #include "compare/metrics/bed_slope.hpp"
 #include "compare/metrics/conservation.hpp"
@@ -186,6 +187,20 @@ Measured fluid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
   return measured(maximum(clip(run.curve("u_c_max"), *p.window)), "no speed in the window");
 }
 
+Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
+  return measured(closure_error(energy_budget(run), run.facts.number("energy_turnover")),
+                  "no energy budget in the series or in run.json");
+}
+
+Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
+  return measured(numerical_share(energy_budget(run), run.facts.number("energy_turnover")),
+                  "no energy budget in the series or in run.json");
+}
+
+Measured warnings(const Run& run, const Parameters&, const FindRun&) {
+  return measured(run.facts.number("warnings"), "run.json states no warnings");
+}
+
 Measured core_seconds(const Run& run, const Parameters&, const FindRun&) {
   return measured(run.facts.number("core_seconds"), "run.json states no cost");
 }
@@ -248,6 +263,15 @@ constexpr std::array table{
                 liquid_speed_max},
     MetricEntry{"fluid_speed_max", "m/s", "largest speed of the fluid, gas included", window_only,
                 fluid_speed_max},
+    MetricEntry{
+        "energy_closure", "-",
+        "largest difference between the change of all energy and the sum of its parts, over the energy "
+        "turned over",
+        none, energy_closure},
+    MetricEntry{"energy_numerical", "-",
+                "energy lost to numerics by the end over the energy turned over; negative: made", none,
+                energy_numerical},
+    MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
     MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds},
 };
 

@@ -90,6 +90,8 @@ RunFacts read_facts(const std::filesystem::path& json_file) {
   if (const auto monitors = json.find("monitors"); monitors != json.end() && monitors->is_object())
     for (const auto& [key, value] : monitors->items())
       if (value.is_number()) facts.numbers.emplace(key, value.get<double>());
+  if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
+    facts.numbers["warnings"] = static_cast<double>(warnings->size());
   if (const auto grid = json.find("grid"); grid != json.end() && grid->is_object())
     facts.grid = Grid3{grid->at("cells").get<std::array<int, 3>>(), grid->at("spacing").get<Vec3>()};
   return facts;

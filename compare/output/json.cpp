@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/input/curves.hpp"
+#include "compare/input/energy_budget.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/output/write.hpp"
 
@@ -63,6 +64,18 @@ Json json_curve(const Curve& curve) {
   return {{"x", curve.time}, {"y", curve.value}};
 }
 
+// At most `most` of its samples, evenly taken, the last among them.
+Curve sampled(const Curve& curve, std::size_t most) {
+  if (curve.time.size() <= most) return curve;
+  Curve taken;
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t at = i * (curve.time.size() - 1) / (most - 1);
+    taken.time.push_back(curve.time[at]);
+    taken.value.push_back(curve.value[at]);
+  }
+  return taken;
+}
+
 Curve shifted(Curve curve, double by) {
   for (double& value : curve.value) value += by;
   return curve;
@@ -85,6 +98,8 @@ Json json_curves(const Run& run) {
                              "bed_height_equivalent", "liquid_front", "liquid_height_left"})
     add(column, run.curve(column));
   if (!run.scene.bed) add("scaled_liquid_front", scaled_liquid_front(run));
+  for (const auto& [name, curve] : energy_budget(run))
+    add(fmt::format("energy:{}", name).c_str(), sampled(curve, 300));
   return curves;
 }
 

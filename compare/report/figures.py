@@ -1,6 +1,7 @@
 """The plots, in the form of the paper's figures. Every curve comes computed from granvof-compare; nothing here
 defines a metric. Each function gives back the names of the plots it wrote, none if it has nothing to show."""
 
+from report import energy, stability
 from report.collapse import base_pressure_plot, floating_run_out_plot, run_out_plot, viscous_plot
 from report.floating import centre_plot, floating_plot
 from report.parts import dam_break_plot, sedimentation_plot, sloshing_plot
@@ -27,6 +28,10 @@ CAPTIONS = {
 
 
 def caption(name):
+    if name == "stability-map":
+        return stability.CAPTION
+    if name.startswith("energy-"):
+        return energy.caption(name.removeprefix("energy-"))
     if name.startswith("snapshots-"):
         return (f"{name.removeprefix('snapshots-')}: solid fraction, colour of the grains and, where recorded, DEM-VOF; black line: "
                 "alpha = 0.5 (paper, Fig. 3).")
@@ -38,6 +43,9 @@ def draw_all(results, directory):
     names = []
     for plot in PLOTS:
         names += plot(results, directory)
+    names += stability.map_plot(stability.load(results.directory), directory)
+    for run in results.curves:
+        names += energy.energy_plot(results, run, directory)
     for run in results.curves:
         names += snapshot_plot(results, run, directory)
     return names

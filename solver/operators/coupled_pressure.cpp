@@ -11,6 +11,14 @@ namespace granvof {
 namespace {
 
 constexpr int upwinding_settles = 4;  // iteration from which the upwind directions are kept
+// Grains do not pull. The solution of the linearised law may: a bed that opens within the step leaves P_lin
+// far below zero where the law says 0. Only as much tension as this passes for none [Pa]; a layer of grains
+// weighs ten.
+constexpr double tension_that_matters = 1.0;
+// Volume, as a fraction of a cell, that a face may carry with the fraction of the wrong side. A bed that a
+// step sets in motion outward starts with the fraction of the empty side: no volume leaves it, nothing but
+// its inertia resists, and one iteration "converges" with a face at 100 m/s.
+constexpr double turned_flux_that_matters = 1e-3;
 // A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope [Pa]:
 // where grains do not touch, a pressure error of volume_tolerance times this is meaningless (0.01 Pa).
 constexpr double slope_that_matters = 1e4;
@@ -45,7 +53,8 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
       point_f_(grid),
       point_p_(grid),
       slope_(grid),
-      f_new_(grid) {}
+      f_new_(grid),
+      present_(grid) {}
 
 // Response of both velocities to both pressure increments on every face:
 //   m_s du_s = -f_s grad dP_c - grad dP_s - beta (du_s - du_c),  m_c du_c = -f_c grad dP_c + beta (du_s -
@@ -179,6 +188,24 @@ void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_p
   subtract_divergence(grid_, dt, flux_s, f_new_);
 }
 
+// Largest volume, as a fraction of a cell, by which the fluxes differ from those whose fractions are taken by
+// the present directions of flow.
+double CoupledPressure::turned_flux(double dt, const Field& f_s) {
+  double largest = 0.0;
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double dt_h = dt / grid_.h[d];
+    const auto look = [&](const FaceField& velocity, const FaceField& taken, const Range& faces) {
+      fraction_.face_values(grid_, f_s, velocity[d], d, dt, faces, present_);
+      const double *u = velocity[d].data(), *used = taken[d].data(), *present = present_.data();
+      largest = max_over(grid_.cells, faces, largest,
+                         [=](std::ptrdiff_t c) { return std::fabs((present[c] - used[c]) * u[c]) * dt_h; });
+    };
+    look(us_, f_upwind_s_, grid_.inner_faces(d));
+    look(uc_, f_upwind_c_, grid_.fluid_faces(d));
+  }
+  return largest;
+}
+
 // Takes the law P_s(f_s) and its slope at the linearisation points.
 void CoupledPressure::linearise(const SolidPressureState& law) {
   const double *theta = law.theta.data(), *e = law.restitution.data(), *pf = point_f_.data();
@@ -219,8 +246,8 @@ double CoupledPressure::move_points(double dt, const SolidPressureState& law, co
     };
     const double p_lin = p_old[c] + dp[c];
     auto there = p_at(std::fmax(f_new[c], 0.0));
-    const double off =
-        std::fabs(there.value - std::fmax(p_lin, 0.0)) / std::fmax(there.slope, slope_that_matters);
+    const double p_felt = p_lin < -tension_that_matters ? p_lin : std::fmax(p_lin, 0.0);
+    const double off = std::fabs(there.value - p_felt) / std::fmax(there.slope, slope_that_matters);
     pf[c] = std::fmax(f_new[c], 0.0);
     if (off > tolerance) {
       double compliance = 0.0;
@@ -274,7 +301,8 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
     report.mismatch = implicit ? move_points(dt, law, p_s) : 0.0;
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
-    if (report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance) {
+    if (report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance &&
+        turned_flux(dt, f_s) <= turned_flux_that_matters) {
       report.converged = true;
       break;
     }

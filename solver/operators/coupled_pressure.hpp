@@ -52,6 +52,7 @@ class CoupledPressure {
   void correct(double dt, const Field& f_s, const FaceField& us_predicted, const FaceField& uc_predicted,
                FaceField& flux_s, FaceField& flux_c);
   void linearise(const SolidPressureState& law);
+  double turned_flux(double dt, const Field& f_s);
   double move_points(double dt, const SolidPressureState& law, const Field& p_s);
   linear::CoupledSystem system() const;
 
@@ -69,6 +70,7 @@ class CoupledPressure {
   Field m11_, m22_, rhs1_, rhs2_, dp_c_, dp_s_;
   Field point_f_, point_p_, slope_;  // linearisation point of P_s(f_s) in every cell
   Field f_new_;
+  Field present_;  // fraction by the present direction of flow
 };
 
 }  // namespace granvof

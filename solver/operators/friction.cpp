@@ -309,6 +309,7 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
   const linear::Components u = pointers(u_s, grid_.dim), r = pointers(residual_, grid_.dim);
   fill_wall_ghosts(u, true);
   apply(mass, u, r);
+  double first = 0.0, load = 0.0;  // largest residual of the guess, largest right-hand side
   for (int d = 0; d < grid_.dim; ++d) {
     const double *b = rhs[d].data(), *m = marked_[d].data();
     double *res = residual_[d].data(), *x = correction_[d].data();
@@ -316,8 +317,15 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
       res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;
       x[c] = 0.0;
     });
+    const Layout layout = face_layout(grid_, d);
+    first = max_over(layout, Range::all(layout), first, [=](std::ptrdiff_t c) { return std::fabs(res[c]); });
+    load =
+        max_over(layout, Range::all(layout), load, [=](std::ptrdiff_t c) { return std::fabs(m[c] * b[c]); });
   }
   set_preconditioner(mass);
+  // Where a bed locks within a step the guess leaves a residual far above every force in the problem
+  // (viscosity times the old velocity): a share of that alone would leave momentum unsolved.
+  const double least_share = relative_tolerance * std::fmin(first, load);
   const double scale = scene_.contact.solid_fraction_min * scene_.solid.density / dt;
   const linear::Report report = solver_->solve(
       [&](const linear::Components& p, const linear::Components& q) {
@@ -328,7 +336,7 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
       {r[0], r[1], r[2]}, pointers(correction_, grid_.dim),
-      {velocity_tolerance * scale, relative_tolerance, most_iterations});
+      {std::fmax(velocity_tolerance * scale, least_share), 0.0, most_iterations});
   for (int d = 0; d < grid_.dim; ++d) {
     const double *x = correction_[d].data(), *m = marked_[d].data();
     double* v = u_s[d].data();

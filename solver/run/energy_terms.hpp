@@ -69,7 +69,7 @@ inline constexpr std::array energy_terms{
                "lost to the splitting of the stress so far"},
     EnergyTerm{"lost_numerical_granular", &EnergyTerms::numerical_granular,
                "lost between stress and Theta so far, bounds included"},
-    EnergyTerm{"lost_theta_bounds", &EnergyTerms::theta_bounds, "of which taken by the bounds on Theta"},
+    EnergyTerm{"theta_bounds_took", &EnergyTerms::theta_bounds, "of which taken by the bounds on Theta"},
     EnergyTerm{"energy_residual", &EnergyTerms::residual,
                "left by the solvers so far: the budget closes up to it"},
 };

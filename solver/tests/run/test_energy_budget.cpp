@@ -1,7 +1,6 @@
 // The energy budget: it closes, its terms are the known ones where theory knows them, and it sees what is
 // wrong.
 #include <cmath>
-#include <cstring>
 
 #include "solver/closures/elastic_energy.hpp"
 #include "solver/tests/run/small_runs.hpp"
@@ -20,7 +19,7 @@ double all_losses(const EnergyTerms& e) {
 void expect_closed(const EnergyTerms& start, const EnergyTerms& now, double residual_share) {
   const double turnover = now.physical() + std::fabs(now.numerical_time) + now.kinetic;
   EXPECT_GT(turnover, 0.0);
-  EXPECT_NEAR(now.stored() - start.stored(), -all_losses(now), 1e-11 * start.stored());
+  EXPECT_NEAR(now.stored() - start.stored(), -all_losses(now), 1e-11 * (start.stored() + turnover));
   EXPECT_LT(std::fabs(now.residual), residual_share * turnover);
 }
 
@@ -40,8 +39,6 @@ TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
     EXPECT_GE(run.now.energy.friction, 0.0);
     EXPECT_GE(run.now.energy.viscosity, 0.0);
     EXPECT_GE(run.now.energy.numerical_time, 0.0);
-    if (std::strcmp(change, "model.drag=false") == 0) EXPECT_EQ(run.now.energy.drag, 0.0);
-    if (std::strcmp(change, "model.granular_temperature=off") == 0) EXPECT_EQ(run.now.energy.collisions, 0.0);
   }
 }
 
@@ -75,10 +72,36 @@ end = 0.1
 [output]
 series_interval = 0.1
 )";
-  Steps run(parse_scene(cube, "cube.toml", {"walls.front=periodic", "walls.back=periodic"}));
+  const std::vector<std::string> periodic{"walls.front=periodic", "walls.back=periodic"};
+  Steps run(parse_scene(cube, "cube.toml", periodic));
   const EnergyTerms start = run.now.energy;
   run.until(0.04);
   expect_closed(start, run.now.energy, 1e-3);
+}
+
+TEST(EnergyBudget, WhatIsSwitchedOffTakesNothing) {
+  Steps dragless(column_scene({"model.drag=false"})), cold(column_scene({"model.granular_temperature=off"}));
+  dragless.until(0.02);
+  cold.until(0.02);
+  EXPECT_EQ(dragless.now.energy.drag, 0.0);
+  EXPECT_GT(dragless.now.energy.friction, 0.0);
+  EXPECT_EQ(cold.now.energy.collisions, 0.0);
+  EXPECT_EQ(cold.now.energy.granular, 0.0);
+  EXPECT_NEAR(cold.now.energy.dilatancy, 0.0, 1e-4 * cold.now.energy.drag);
+}
+
+// A dense bed that a step sets free: every face that it opens must carry the bed's own fraction (with that of
+// the empty side nothing leaves, nothing resists, and the grains got 100 m/s), and grains that lock again in
+// the next step must be solved for (P_s^E n gives 1e10 Pa s).
+TEST(EnergyBudget, ADenseStartIsGivenNoMoreEnergyThanItsContactsHold) {
+  Steps run(column_scene({"bed.solid_fraction=0.61"}));
+  const EnergyTerms start = run.now.energy;
+  for (int i = 0; i < 10; ++i) {
+    run.advance(5e-4);
+    const EnergyTerms& now = run.now.energy;
+    EXPECT_LT(now.kinetic, start.elastic) << i;
+    EXPECT_LT(std::fabs(now.residual), 1e-2 * start.elastic) << i;
+  }
 }
 
 // A solver that does not reach its tolerance leaves momentum or continuity unsolved: that is the residual.
@@ -137,7 +160,7 @@ TEST(EnergyBudget, ElasticEnergyIsTheIntegralOfItsPressure) {
   const closures::ElasticEnergy energy(contact);
   EXPECT_EQ(energy(0.5), 0.0);
   EXPECT_EQ(energy(contact.solid_fraction_min), 0.0);
-  for (const double f : {0.571, 0.574, 0.58, 0.60, 0.61, 0.625, 0.64, 0.66}) {
+  for (const double f : {0.574, 0.58, 0.60, 0.61, 0.625, 0.64, 0.66}) {
     const double step = 1e-5, slope = (energy(f + step) - energy(f - step)) / (2.0 * step);
     const double pressure = closures::elastic_pressure(f, contact).value;
     EXPECT_NEAR(f * slope - energy(f), pressure, 2e-4 * pressure) << f;
