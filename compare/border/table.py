@@ -31,6 +31,7 @@ class Axis:
     set: list = field(default_factory=list)  # overrides that go with the axis
     allow: list = field(default_factory=list)  # monitors whose warning is what the point is about
     note: str = ""
+    known: list = field(default_factory=list)  # methods whose answer depends on the step unseen, as is known
 
     def overrides(self, value):
         return self.scene.set + self.set + [text.replace("{}", f"{value:.6g}") for text in self.assign]
@@ -42,6 +43,8 @@ class Point:
     scene: SceneEntry
     set: list
     allow: list = field(default_factory=list)
+    note: str = ""
+    known: list = field(default_factory=list)
 
 
 @dataclass
@@ -69,14 +72,14 @@ def refuse_unknown(entry, known, where):
 def read_axis(entry, scenes, path):
     where = f"{path}: axis {entry.get('name', '?')}"
     refuse_unknown(entry, ["name", "scene", "unit", "nominal", "assign", "low", "high", "scale", "values", "set", "allow",
-                           "note"], where)
+                           "note", "known"], where)
     scene = need(entry, "scene", where, str)
     if scene not in scenes:
         raise TableError(f"{where}: scene {scene} given; there are {', '.join(scenes)}")
     axis = Axis(need(entry, "name", where, str), scenes[scene], entry.get("unit", "-"),
                 float(need(entry, "nominal", where, (int, float))), need(entry, "assign", where, list), entry.get("low"),
                 entry.get("high"), entry.get("scale", "log"), entry.get("values"), entry.get("set", []),
-                entry.get("allow", []), entry.get("note", ""))
+                entry.get("allow", []), entry.get("note", ""), entry.get("known", []))
     if axis.values is not None:
         if axis.nominal not in axis.values or sorted(axis.values) != axis.values:
             raise TableError(f"{where}: values must ascend and hold the nominal one")
@@ -107,11 +110,11 @@ def read(path):
     points = []
     for entry in data.get("point", []):
         where = f"{path}: point {entry.get('name', '?')}"
-        refuse_unknown(entry, ["name", "scene", "set", "allow"], where)
+        refuse_unknown(entry, ["name", "scene", "set", "allow", "note", "known"], where)
         scene = need(entry, "scene", where, str)
         if scene not in scenes:
             raise TableError(f"{where}: scene {scene} given; there are {', '.join(scenes)}")
         points.append(Point(need(entry, "name", where, str), scenes[scene], need(entry, "set", where, list),
-                            entry.get("allow", [])))
+                            entry.get("allow", []), entry.get("note", ""), entry.get("known", [])))
     return Table(data.get("methods", {}), [read_axis(entry, scenes, path) for entry in data.get("axis", [])], points,
                  int(data.get("bisections", 4)))

@@ -44,8 +44,9 @@ TEST_F(RunAlarms, LooseToleranceIsSeenInTheLiquidVolume) {
 
 // Contacts that are too soft for the load: the bed is pressed beyond its largest packing.
 TEST_F(RunAlarms, SoftContactIsSeenInThePacking) {
-  EXPECT_TRUE(
-      warned(record_of({"contact.stiffness=10", "model.dilatancy_pressure=false"}), "solid fraction"));
+  EXPECT_TRUE(warned(record_of({"contact.stiffness=10", "contact.solid_fraction_max=0.575",
+                                "contact.dense_solid_fraction=0.575"}),
+                     "solid fraction"));
 }
 
 // Velocities that nothing has given, as after a blow-up that stays finite: the run stops and says why.
