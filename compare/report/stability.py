@@ -36,7 +36,7 @@ def map_plot(found, directory):
         return []
     names = list(dict.fromkeys(entry["axis"] for entry in found["axes"]))
     methods = list(dict.fromkeys(entry["method"] for entry in found["axes"]))
-    figure, axis = plt.subplots(figsize=(8.4, 0.55 * len(names) + 1.6))
+    figure, axis = plt.subplots(figsize=(8.4, 0.34 * len(names) + 1.4))
     height = 0.7 / len(methods)
     shown = set()
     for entry in found["axes"]:

@@ -9,7 +9,7 @@ namespace granvof {
 namespace {
 
 using test::column_scene;
-using test::Steps;
+using test::Simulation;
 
 double all_losses(const EnergyTerms& e) {
   return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.residual;
@@ -30,7 +30,7 @@ TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
         "model.contact_friction=false", "numerics.solid_flux=limited", "bed.solid_fraction=0.61",
         "walls.bottom.velocity=[0.1, 0]", "walls.all=slip", "liquid.level=0.08"}) {
     SCOPED_TRACE(change);
-    Steps run(column_scene({change}));
+    Simulation run(column_scene({change}));
     const EnergyTerms start = run.now.energy;
     run.until(0.05);
     if (::testing::Test::HasFatalFailure()) return;
@@ -73,14 +73,15 @@ end = 0.1
 series_interval = 0.1
 )";
   const std::vector<std::string> periodic{"walls.front=periodic", "walls.back=periodic"};
-  Steps run(parse_scene(cube, "cube.toml", periodic));
+  Simulation run(parse_scene(cube, "cube.toml", periodic));
   const EnergyTerms start = run.now.energy;
   run.until(0.04);
   expect_closed(start, run.now.energy, 1e-3);
 }
 
 TEST(EnergyBudget, WhatIsSwitchedOffTakesNothing) {
-  Steps dragless(column_scene({"model.drag=false"})), cold(column_scene({"model.granular_temperature=off"}));
+  Simulation dragless(column_scene({"model.drag=false"})),
+      cold(column_scene({"model.granular_temperature=off"}));
   dragless.until(0.02);
   cold.until(0.02);
   EXPECT_EQ(dragless.now.energy.drag, 0.0);
@@ -94,7 +95,7 @@ TEST(EnergyBudget, WhatIsSwitchedOffTakesNothing) {
 // the empty side nothing leaves, nothing resists, and the grains got 100 m/s), and grains that lock again in
 // the next step must be solved for (P_s^E n gives 1e10 Pa s).
 TEST(EnergyBudget, ADenseStartIsGivenNoMoreEnergyThanItsContactsHold) {
-  Steps run(column_scene({"bed.solid_fraction=0.61"}));
+  Simulation run(column_scene({"bed.solid_fraction=0.61"}));
   const EnergyTerms start = run.now.energy;
   for (int i = 0; i < 10; ++i) {
     run.advance(5e-4);
@@ -108,7 +109,7 @@ TEST(EnergyBudget, ADenseStartIsGivenNoMoreEnergyThanItsContactsHold) {
 TEST(EnergyBudget, ResidualFollowsTheTolerance) {
   double last = 0.0;
   for (const char* tolerance : {"1e-8", "1e-5", "1e-2"}) {
-    Steps run(column_scene(
+    Simulation run(column_scene(
         {std::string("numerics.volume_tolerance=") + tolerance, "numerics.linear_tolerance=0.1"}));
     run.until(0.05);
     const double residual = std::fabs(run.now.energy.residual);
@@ -143,7 +144,7 @@ end = 5
 [output]
 series_interval = 5
 )";
-  Steps run(parse_scene(couette, "couette.toml", {}));
+  Simulation run(parse_scene(couette, "couette.toml", {}));
   run.until(4.0);
   const EnergyTerms before = run.now.energy;
   run.until(5.0);
