@@ -43,7 +43,7 @@ TEST(EnergyBudgetOfARun, ClosesAndSaysWhatIsMissing) {
 }
 
 TEST(EnergyBudgetOfARun, IsUndefinedWithoutItsColumns) {
-  Run run = falling(0.0);
+  auto run = falling(0.0);
   EXPECT_FALSE(closure_error(energy_budget(run), std::nullopt));
   run.series.columns[3].name = "other";
   EXPECT_TRUE(energy_budget(run).empty());
