@@ -317,7 +317,7 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
       res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;
       x[c] = 0.0;
     });
-    const Layout layout = face_layout(grid_, d);
+    const Layout& layout = faces_[d];
     first = max_over(layout, Range::all(layout), first, [=](std::ptrdiff_t c) { return std::fabs(res[c]); });
     load =
         max_over(layout, Range::all(layout), load, [=](std::ptrdiff_t c) { return std::fabs(m[c] * b[c]); });
@@ -347,6 +347,7 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
 }
 
 Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const FaceField& u_end) {
+  if (is_empty(box_)) return {};
   correction_ = u;
   const linear::Components v = pointers(correction_, grid_.dim), r = pointers(residual_, grid_.dim);
   fill_wall_ghosts(v, true);
