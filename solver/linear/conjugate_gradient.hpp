@@ -45,12 +45,13 @@ class ConjugateGradient {
   //   precondition(const ConstComponents& r, const Components& z): z = M r on the boxes, M symmetric and
   //   positive
   //     definite, for example one Multigrid::apply per component.
-  // Ghosts of x and rhs are neither read nor written.
+  // Ghosts of x and rhs are neither read nor written. With `weight` the residual is judged, and reported, row
+  // by row times its weight (>= 0); the iteration itself does not change.
   template <typename Apply, typename Precondition>
   Report solve(Apply&& apply, Precondition&& precondition, const ConstComponents& rhs, const Components& x,
-               const Tolerance& tolerance) {
+               const Tolerance& tolerance, const ConstComponents& weight = {}) {
     Report report;
-    report.initial = report.final = true_residual(apply, rhs, x);
+    report.initial = report.final = true_residual(apply, rhs, x, weight);
     if (!std::isfinite(report.initial)) return report;
     const double target = std::max(tolerance.absolute, tolerance.relative * report.initial);
     double restart_norm = report.initial;  // the true residual at the last (re)start
@@ -59,7 +60,7 @@ class ConjugateGradient {
     double norm = report.initial;
     for (;;) {
       if (norm <= target || !std::isfinite(norm) || report.iterations >= tolerance.max_iterations) {
-        if (report.iterations > 0) report.final = true_residual(apply, rhs, x);
+        if (report.iterations > 0) report.final = true_residual(apply, rhs, x, weight);
         report.converged = report.final <= target;
         // Rounding makes the recurrence drift from the true residual; go on from the latter while that helps.
         const bool useful = std::isfinite(report.final) && report.final < 0.5 * restart_norm;
@@ -76,20 +77,21 @@ class ConjugateGradient {
       apply(p_, q_);
       const double pq = dot(p_, q_);
       if (!(pq > 0.0) || !std::isfinite(pq) || !std::isfinite(rz)) {  // breakdown
-        report.final = true_residual(apply, rhs, x);
+        report.final = true_residual(apply, rhs, x, weight);
         report.converged = report.final <= target;
         return report;
       }
-      norm = advance(rz / pq, x);
+      norm = advance(rz / pq, x, weight);
     }
   }
 
  private:
   static ConstComponents as_const(const Components& c) { return {c[0], c[1], c[2]}; }
 
-  // r = rhs - A x; its largest value. Uses p and q as scratch.
+  // r = rhs - A x; its largest value, weighted. Uses p and q as scratch.
   template <typename Apply>
-  double true_residual(Apply& apply, const ConstComponents& rhs, const Components& x) {
+  double true_residual(Apply& apply, const ConstComponents& rhs, const Components& x,
+                       const ConstComponents& weight) {
     for (std::size_t c = 0; c < layouts_.size(); ++c) {
       double* p = p_[c];
       const double* from = x[c];
@@ -98,10 +100,10 @@ class ConjugateGradient {
     apply(p_, q_);
     double largest = 0.0;
     for (std::size_t c = 0; c < layouts_.size(); ++c) {
-      const double *q = q_[c], *b = rhs[c];
+      const double *q = q_[c], *b = rhs[c], *w = weight[c];
       double* r = r_[c];
       largest =
-          std::max(largest, rows_max(layouts_[c], [=](std::ptrdiff_t i) { return r[i] = b[i] - q[i]; }));
+          std::max(largest, rows_max(layouts_[c], w, [=](std::ptrdiff_t i) { return r[i] = b[i] - q[i]; }));
     }
     return communicator_.max(largest);
   }
@@ -126,18 +128,26 @@ class ConjugateGradient {
     }
   }
 
-  // x += alpha p, r -= alpha q; the largest value of r.
-  double advance(double alpha, const Components& x) {
+  // x += alpha p, r -= alpha q; the largest value of r, weighted.
+  double advance(double alpha, const Components& x, const ConstComponents& weight) {
     double largest = 0.0;
     for (std::size_t c = 0; c < layouts_.size(); ++c) {
       const double *p = p_[c], *q = q_[c];
       double *to = x[c], *r = r_[c];
-      largest = std::max(largest, rows_max(layouts_[c], [=](std::ptrdiff_t i) {
+      largest = std::max(largest, rows_max(layouts_[c], weight[c], [=](std::ptrdiff_t i) {
                            to[i] += alpha * p[i];
                            return r[i] -= alpha * q[i];
                          }));
     }
     return communicator_.max(largest);
+  }
+
+  // Largest |body(index)| weight[index] over the box, nullptr for weights of 1; not finite if one is not a
+  // number.
+  template <typename Body>
+  static double rows_max(const Layout& l, const double* weight, Body&& body) {
+    if (weight == nullptr) return rows_max(l, body);
+    return rows_max(l, [=](std::ptrdiff_t i) { return body(i) * weight[i]; });
   }
 
   // Largest |body(index)| over the box; infinity if one is not a number.

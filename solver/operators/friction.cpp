@@ -10,7 +10,7 @@
 namespace granvof {
 namespace {
 
-constexpr double velocity_tolerance = 1e-7;  // [m/s] of a face full of grains
+constexpr double velocity_tolerance = 1e-7;  // [m/s]: residual over the face's own mass, drag included
 constexpr double relative_tolerance = 1e-4;
 constexpr int most_iterations = 300;
 constexpr int smoothing = 2;
@@ -35,6 +35,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       marked_(grid),
       communicator_(communicator),
       component_mass_(grid),
+      inverse_mass_(grid),
       residual_(grid),
       correction_(grid) {
   for (int p = 0; p < (grid.dim == 2 ? 1 : 3); ++p) {
@@ -295,9 +296,9 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
   }
 }
 
-linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField& rhs,
-                               const FaceInertia& inertia, const Aperture& aperture, const Rheology& rheology,
-                               const FaceField& u_strain, FaceField& u_s) {
+linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+                               const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
+                               FaceField& u_s) {
   fit_box(inertia);
   if (is_empty(box_)) return {0, 0.0, 0.0, true};
   set_viscosity(rheology, u_strain);
@@ -309,7 +310,8 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
   const linear::Components u = pointers(u_s, grid_.dim), r = pointers(residual_, grid_.dim);
   fill_wall_ghosts(u, true);
   apply(mass, u, r);
-  double first = 0.0, load = 0.0;  // largest residual of the guess, largest right-hand side
+  double first = 0.0,
+         load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
   for (int d = 0; d < grid_.dim; ++d) {
     const double *b = rhs[d].data(), *m = marked_[d].data();
     double *res = residual_[d].data(), *x = correction_[d].data();
@@ -317,16 +319,19 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
       res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;
       x[c] = 0.0;
     });
+    const double* own = mass[d].data();
+    double* w = inverse_mass_[d].data();
     const Layout& layout = faces_[d];
-    first = max_over(layout, Range::all(layout), first, [=](std::ptrdiff_t c) { return std::fabs(res[c]); });
+    for_each(layout, [=](std::ptrdiff_t c) { w[c] = m[c] != 0.0 ? 1.0 / own[c] : 0.0; });
+    first = max_over(layout, Range::all(layout), first,
+                     [=](std::ptrdiff_t c) { return std::fabs(w[c] * res[c]); });
     load =
-        max_over(layout, Range::all(layout), load, [=](std::ptrdiff_t c) { return std::fabs(m[c] * b[c]); });
+        max_over(layout, Range::all(layout), load, [=](std::ptrdiff_t c) { return std::fabs(w[c] * b[c]); });
   }
   set_preconditioner(mass);
   // Where a bed locks within a step the guess leaves a residual far above every force in the problem
   // (viscosity times the old velocity): a share of that alone would leave momentum unsolved.
   const double least_share = relative_tolerance * std::fmin(first, load);
-  const double scale = scene_.contact.solid_fraction_min * scene_.solid.density / dt;
   const linear::Report report = solver_->solve(
       [&](const linear::Components& p, const linear::Components& q) {
         fill_wall_ghosts(p, false);
@@ -336,7 +341,8 @@ linear::Report Friction::solve(double dt, const FaceField& mass, const FaceField
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
       {r[0], r[1], r[2]}, pointers(correction_, grid_.dim),
-      {std::fmax(velocity_tolerance * scale, least_share), 0.0, most_iterations});
+      {std::fmax(velocity_tolerance, least_share), 0.0, most_iterations},
+      {inverse_mass_[0].data(), inverse_mass_[1].data(), grid_.dim == 3 ? inverse_mass_[2].data() : nullptr});
   for (int d = 0; d < grid_.dim; ++d) {
     const double *x = correction_[d].data(), *m = marked_[d].data();
     double* v = u_s[d].data();

@@ -28,7 +28,7 @@ class Friction {
   // Solves for u_s on the faces that hold grains (f_s >= least_solid_fraction, open); elsewhere u_s keeps its
   // value and acts as a known velocity. u_s holds the guess. mass [kg/m3 s], rhs [Pa/m]; viscosities from the
   // rheology and from the strain of `u_strain`, whose ghosts must be filled.
-  linear::Report solve(double dt, const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+  linear::Report solve(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
                        const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
                        FaceField& u_s);
 
@@ -68,7 +68,7 @@ class Friction {
   std::optional<linear::ConjugateGradient> solver_;
   std::vector<linear::Multigrid> multigrid_;  // one a component
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
-  FaceField component_mass_, residual_, correction_;
+  FaceField component_mass_, inverse_mass_, residual_, correction_;
 };
 
 }  // namespace granvof

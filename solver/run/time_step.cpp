@@ -169,7 +169,7 @@ void TimeStep::apply_friction(const State& now, double dt, State& next, StepRepo
     });
     boundary_.exchange(next.u_s[d]);
   }
-  report.friction = friction_.solve(dt, mass_, rhs_, inertia_, aperture_, rheology_, now.u_strain, next.u_s);
+  report.friction = friction_.solve(mass_, rhs_, inertia_, aperture_, rheology_, now.u_strain, next.u_s);
   for (int d = 0; d < grid_.dim; ++d) {
     const double inv_dt = 1.0 / dt;
     const double *fluid = inertia_.fluid[d].data(), *beta = drag_.beta()[d].data();

@@ -76,6 +76,54 @@ TEST(ConjugateGradient, TwoComponentsWithABlockDiagonalPreconditioner) {
   EXPECT_NEAR(report.final, (rhs - whole * x).lpNorm<Eigen::Infinity>(), 1e-13);
 }
 
+// Rows of which one in three is a million times lighter: judged by residual over diagonal every row is as
+// good as the tolerance says; judged by the residual itself the light rows are never looked at.
+TEST(ConjugateGradient, WeightsJudgeEveryRowByItsOwn) {
+  Box b({9, 8, 1});
+  Values mass = b.values(1.0), rhs = b.values(), inverse = b.values();
+  b.each([&](int i, int j, int k) {
+    const auto at = b.layout.index(i, j, k);
+    if (i % 3 == 0) mass[at] = 1e-6;
+    rhs[at] = mass[at] * b.uniform(0.5, 1.0);
+    inverse[at] = 1.0 / mass[at];
+  });
+  const double coupling = 1e-7;
+  const auto apply = [&](const Components& p, const Components& q) {
+    b.each([&](int i, int j, int k) {
+      const auto at = b.layout.index(i, j, k);
+      double sum = mass[at] * p[0][at];
+      if (i > 0) sum += coupling * (p[0][at] - p[0][b.layout.index(i - 1, j, k)]);
+      if (i < 8) sum += coupling * (p[0][at] - p[0][b.layout.index(i + 1, j, k)]);
+      q[0][at] = sum;
+    });
+  };
+  const auto precondition = [&](const ConstComponents& r, const Components& z) {
+    b.each([&](int i, int j, int k) { z[0][b.layout.index(i, j, k)] = r[0][b.layout.index(i, j, k)]; });
+  };
+  const SerialCommunicator communicator;
+  const double tolerance = 1e-4;
+  for (const bool weighted : {false, true}) {
+    Values x = b.values();
+    ConjugateGradient solver({b.layout}, communicator);
+    const Report report = solver.solve(apply, precondition, {rhs.data()}, {x.data()}, {tolerance, 0.0, 500},
+                                       {weighted ? inverse.data() : nullptr});
+    EXPECT_TRUE(report.converged);
+    double worst = 0.0;
+    Values left = b.values();
+    apply({x.data()}, {left.data()});
+    b.each([&](int i, int j, int k) {
+      const auto at = b.layout.index(i, j, k);
+      worst = std::max(worst, std::abs(rhs[at] - left[at]) * inverse[at]);
+    });
+    if (weighted) {
+      EXPECT_LE(worst, tolerance);
+      EXPECT_NEAR(report.final, worst, 1e-6 * tolerance);
+    } else {
+      EXPECT_GT(worst, 0.1);
+    }
+  }
+}
+
 TEST(ConjugateGradient, IndefiniteOperatorIsReported) {
   Box b({8, 8, 1});
   Values rhs = b.values(1.0), x = b.values();
