@@ -13,36 +13,39 @@ inline constexpr double least_solid_pressure_slope =
     1.0;  // [Pa]; keeps the implicit step regular without grains
 
 // f_s >= 0. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
-// parts together are max(P_s^K, P_s^D).
+// parts together are max(P_s^K, P_s^D); with `resting` > 0 max(P_s^K, P_s^D, P_s^W).
 inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                       bool dilatancy) {
+                                       bool dilatancy, double resting = 0.0) {
   PressureAndSlope p = elastic_pressure(f_s, c);
+  PressureAndSlope flow = resting_pressure(f_s, resting, c);
   if (theta > 0.0 && f_s > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
     const double g0_slope = radial_distribution_slope(f_s, c.solid_fraction_max);
-    PressureAndSlope flow{kinetic_pressure(f_s, theta, e, g0, rho_s),
-                          rho_s * theta * (1.0 + 2.0 * (1.0 + e) * f_s * (2.0 * g0 + f_s * g0_slope))};
+    const PressureAndSlope kinetic{
+        kinetic_pressure(f_s, theta, e, g0, rho_s),
+        rho_s * theta * (1.0 + 2.0 * (1.0 + e) * f_s * (2.0 * g0 + f_s * g0_slope))};
+    if (kinetic.value > flow.value) flow = kinetic;
     if (dilatancy) {
       const PressureAndSlope dense = dense_pressure(f_s, theta, e, rho_s, c);
       if (dense.value > flow.value) flow = dense;
     }
-    p.value += flow.value;
-    p.slope += flow.slope;
   }
+  p.value += flow.value;
+  p.slope += flow.slope;
   p.slope = std::max(p.slope, least_solid_pressure_slope);
   return p;
 }
 
 // P_s^E = P_s^ES + P_s^EF [Pa], eqs (12)-(14): the pressure that carries friction.
 inline double enduring_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                bool dilatancy) {
-  double p = elastic_pressure(f_s, c).value;
-  if (dilatancy && theta > 0.0) {
+                                bool dilatancy, double resting = 0.0) {
+  double borne = resting_pressure(f_s, resting, c).value;
+  if (theta > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
-    p += std::max(dense_pressure(f_s, theta, e, rho_s, c).value - kinetic_pressure(f_s, theta, e, g0, rho_s),
-                  0.0);
+    if (dilatancy) borne = std::max(borne, dense_pressure(f_s, theta, e, rho_s, c).value);
+    borne = std::max(borne - kinetic_pressure(f_s, theta, e, g0, rho_s), 0.0);
   }
-  return p;
+  return elastic_pressure(f_s, c).value + borne;
 }
 
 }  // namespace granvof::closures

@@ -138,7 +138,7 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
         wall.lower[d] = upper ? grid_.cells.n[d] : 0;
         wall.upper[d] = wall.lower[d] + 1;
         wall = common(wall, Grid::edges(box_, d, e));
-        const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0, t = grid_.stride(e);
+        const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, t = grid_.stride(e);
         const double h = grid_.h[d], u_wall = side.velocity[e];
         const int g =
             3 - d - e;  // in 3D the other tangential direction: the wall limits the vector, not a component
@@ -148,7 +148,7 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
         const double *v = u_strain[e].data(), *w = three ? u_strain[g].data() : v;
         double* edge = mu_edge_[plane_index(d, e)].data();
         for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
-          const double pressure = 0.5 * (p[c + inside] + p[c + inside - t]);
+          const double pressure = 0.25 * (p[c] + p[c - s] + p[c - t] + p[c - s - t]);
           const std::ptrdiff_t i = c + inside;
           const double along = v[i] - u_wall;
           const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;

@@ -10,12 +10,18 @@ struct Rheology {
   Field kinetic_viscosity;  // f_s mu_s^K [Pa s], eqs (16), (20); also f_s (zeta_s^K - 2/3 mu_s^K), see
                             // friction.hpp
   Field enduring_pressure;  // P_s^E [Pa], eqs (12)-(14)
+  Field resting;            // weight of grains in partly filled cells [Pa per solid fraction], no ghosts;
+                            // see bed_surface.hpp, 0 with bed_surface = "whole-cells"
 
-  explicit Rheology(const Grid& grid) : restitution(grid), kinetic_viscosity(grid), enduring_pressure(grid) {}
+  explicit Rheology(const Grid& grid)
+      : restitution(grid), kinetic_viscosity(grid), enduring_pressure(grid), resting(grid), support_(grid) {}
 
-  // All three with ghosts filled, from f_s, Theta and alpha of the same level.
+  // All with ghosts filled but `resting`, from f_s, Theta, alpha and P_s of the same level.
   void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
-              const Field& theta, const Field& alpha);
+              const Field& theta, const Field& alpha, const Field& p_s);
+
+ private:
+  Field support_;
 };
 
 }  // namespace granvof

@@ -50,7 +50,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
-    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha);
+    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s);
     drag_.update(now.u_s, now.u_c, now.alpha, inertia_);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
@@ -72,8 +72,9 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     }
   }
   cost_.time("pressure", [&] {
-    report.pressure = pressure_.solve(dt, now.f_s, {now.theta, rheology_.restitution}, inertia_, drag_.beta(),
-                                      aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
+    report.pressure =
+        pressure_.solve(dt, now.f_s, {now.theta, rheology_.restitution, rheology_.resting}, inertia_,
+                        drag_.beta(), aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
   report.refused_because = reason_to_refuse(now, dt, report);
   if (!report.refused_because.empty()) return report;

@@ -189,6 +189,8 @@ std::vector<Key> model_keys() {
 
 std::vector<Key> numerics_keys() {
   const Words<SolidFlux> fluxes{{"upwind", SolidFlux::upwind}, {"limited", SolidFlux::limited}};
+  const Words<BedSurface> surfaces{{"whole-cells", BedSurface::whole_cells},
+                                   {"part-cells", BedSurface::part_cells}};
   const Words<InterfaceScheme> schemes{{"cicsam", InterfaceScheme::cicsam},
                                        {"plic", InterfaceScheme::plic},
                                        {"upwind", InterfaceScheme::upwind}};
@@ -203,6 +205,10 @@ std::vector<Key> numerics_keys() {
       choice(
           "numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
           "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded."),
+      choice(
+          "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
+          "Contact needs f_s,min in the whole cell (the paper), or grains that fill a part of a cell at the "
+          "bed's surface bear their own weight, and friction by it."),
       choice("numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
              "Flux of alpha in (24): compressive (the paper), geometric with split sweeps, or first order."),
       choice(

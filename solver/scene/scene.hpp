@@ -126,11 +126,15 @@ enum class SolidFlux { upwind, limited };
 enum class ContactPressure { implicit, explicit_ };
 enum class InterfaceScheme { cicsam, plic, upwind };
 
+// Contact in cells that the bed fills in part: none (the paper), or of the grains' own weight.
+enum class BedSurface { whole_cells, part_cells };
+
 struct Numerics {
   double cfl = 0.4;      // convective Courant number of the step, in (0, 0.9]
   double dt_max = 5e-3;  // [s]
   double dt_min = 1e-9;  // a refused step that would be shorter ends the run [s]
   SolidFlux solid_flux = SolidFlux::upwind;
+  BedSurface bed_surface = BedSurface::whole_cells;
   InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
   ContactPressure contact_pressure = ContactPressure::implicit;
   double volume_tolerance = 1e-6;  // largest volume error of a cell in one step, as a fraction of the cell

@@ -1,0 +1,38 @@
+// Partly filled cells at the surface of a bed: grains packed in a part of the cell, at rest on what lies
+// below.
+//
+// The law (13) knows no contact below f_s,min, so the cells that hold the bed's surface carry neither weight
+// nor friction: their grains hang in the fluid, the drag hands their weight to P_c, and the surface runs down
+// the slope as a density current (a heap of 12 degrees creeps at 4 cm/s for ever). Yet such a cell stands for
+// grains at f_s,min that fill the share f_s / f_s,min of its height, and those bear their own submerged
+// weight by contact. On a staggered grid a face holds half the grains of either cell, so that
+//   P_s = 1/2 f_s |rho_s - rho_c| g h      (half the cell's weight per area)
+// balances the weight of both halves exactly when the cell rests on a packed one and nothing rests on it: at
+// the face above 0 - P_s takes one half, at the face below P_s - P_s,below the other. It is taken as a third
+// claimant beside kinetic and dense-flow pressure: P_s^EF = max(P_s^D, P_s^W) - P_s^K in (14); friction (17)
+// follows.
+//
+// Own derivation; it vanishes with the grid, like the cells it is about.
+#pragma once
+
+#include "solver/grid/field.hpp"
+
+namespace granvof {
+
+// resting [Pa per solid fraction]: P_s^W = resting min(f_s, f_s,min), 0 except at the surface of a bed, in
+// cells:
+//   1/2 |rho_s - rho_c| g h r (1 - filled share of the cell above), at most P_s of the cell below / f_s,min.
+// r is the support from below: 1 on a closed floor and on a cell with f_s >= f_s,min, else the filled share
+// of the cell below times its own support: dispersed grains rest on nothing. The bound by P_s, of the old
+// level, takes the weight off a bed in free fall. Grains lighter than the fluid press upwards: above and
+// below change places. `support` is a work field. Interior cells only; one ghost layer of f_s must be filled.
+void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
+                     const Field& p_s, Field& support, Field& resting);
+
+// Contact pressure on floor and lid [Pa]: adds to the ghosts of `pressure` (mirrored on entry) twice the half
+// weight of the cell's grains, but not more than the cell's own pressure again, so that the mean over both
+// sides is the pressure at the wall itself: a layer of one cell presses on the floor with its whole weight.
+void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
+                     Field& pressure);
+
+}  // namespace granvof
