@@ -14,4 +14,15 @@ inline double friction_viscosity(double p_enduring, double eta, double n, double
   return 0.5 * p_enduring * eta * n * shape;
 }
 
+// Friction coefficient mu(I) = mu_s + (mu_2 - mu_s) / (1 + I_0 / I) [-] of dense flow, I = gamma d_s / sqrt(P
+// / rho_s), gamma = 2 ||S|| (Jop, Forterre and Pouliquen, Nature 441 (2006) 727). Under water the same law
+// holds while a grain is stopped by others and not by the liquid, rho_s d_s^2 gamma / mu_c > 1 (Cassar et
+// al., Phys. Fluids 17 (2005) 103301; Trulsson et al., PRL 109 (2012) 118305): 16 for s1 at 10 1/s. Limits:
+// mu_s for strain_norm -> 0, mu_2 for p -> 0. p_enduring >= 0 [Pa], strain_norm = ||S|| >= 0 [1/s], SI units.
+inline double inertial_friction(double p_enduring, double strain_norm, double mu_s, double mu_2, double i_0,
+                                double rho_s, double d_s) {
+  const double fast = 2.0 * strain_norm * d_s * std::sqrt(rho_s), slow = i_0 * std::sqrt(p_enduring);
+  return fast > 0.0 ? mu_s + (mu_2 - mu_s) * fast / (fast + slow) : mu_s;
+}
+
 }  // namespace granvof::closures

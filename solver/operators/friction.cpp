@@ -74,13 +74,21 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   boundary_.fill_scalar(strain_.normal_squared);
   const double eta = scene_.model.contact_friction ? scene_.solid.friction : 0.0;
   const double n = scene_.contact.regularisation;
+  const bool inertial = scene_.model.contact_friction && scene_.model.friction_law == FrictionLaw::inertial;
+  const double mu_2 = scene_.contact.fast_friction, i_0 = scene_.contact.inertial_number;
+  const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
+  const auto viscosity_at = [=](double pressure, double norm) {
+    const double coefficient =
+        inertial ? closures::inertial_friction(pressure, norm, eta, mu_2, i_0, rho_s, d_s) : eta;
+    return closures::friction_viscosity(pressure, coefficient, n, norm);
+  };
   const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data();
   const double* sq = strain_.squared.data();
   double *mu = mu_.data(), *lambda = lambda_.data();
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     lambda[c] = kinetic[c];
     mu[c] = kinetic[c];
-    if (p[c] > 0.0) mu[c] += closures::friction_viscosity(p[c], eta, n, std::sqrt(0.5 * sq[c]));
+    if (p[c] > 0.0) mu[c] += viscosity_at(p[c], std::sqrt(0.5 * sq[c]));
   });
   boundary_.fill_scalar(mu_);
   boundary_.fill_scalar(lambda_);
@@ -111,7 +119,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
         }
         if (contacts > 0) {
           const double norm = std::sqrt(0.5 * (square / contacts + 0.5 * g[c] * g[c]));
-          viscosity += closures::friction_viscosity(pressure / contacts, eta, n, norm);
+          viscosity += viscosity_at(pressure / contacts, norm);
         }
         edge[c] = viscosity;
       });

@@ -178,6 +178,9 @@ class Completion {
       refuse("contact.solid_fraction_min",
              fmt::format("below contact.solid_fraction_max = {}", contact.solid_fraction_max));
     }
+    if (s_.model.friction_law == FrictionLaw::inertial && contact.fast_friction < s_.solid.friction) {
+      refuse("contact.fast_friction", fmt::format("at least solid.friction = {}", s_.solid.friction));
+    }
     if (contact.dense_solid_fraction > contact.solid_fraction_max) {
       refuse("contact.dense_solid_fraction",
              fmt::format("at most contact.solid_fraction_max = {}", contact.solid_fraction_max));

@@ -108,6 +108,9 @@ std::vector<Key> contact_keys() {
           "f_s,min, random loose packing; below solid_fraction_max."),
       key("contact.solid_fraction_max", "-", part, MEMBER(scene.contact.solid_fraction_max), "f_s,max."),
       key("contact.regularisation", "s", positive, MEMBER(scene.contact.regularisation), "n of (17)."),
+      key("contact.fast_friction", "-", not_negative, MEMBER(scene.contact.fast_friction),
+          "mu_2 of mu(I); at least solid.friction with friction_law = \"inertial\"."),
+      key("contact.inertial_number", "-", positive, MEMBER(scene.contact.inertial_number), "I_0 of mu(I)."),
   };
 }
 
@@ -183,6 +186,11 @@ std::vector<Key> model_keys() {
       key("model.kinetic_viscosity", "", any, MEMBER(scene.model.kinetic_viscosity),
           "mu_s^K and zeta_s^K, (20), (21)."),
       key("model.contact_friction", "", any, MEMBER(scene.model.contact_friction), "tau_s^E, (17)."),
+      choice("model.friction_law",
+             Words<FrictionLaw>{{"constant", FrictionLaw::constant}, {"inertial", FrictionLaw::inertial}},
+             MEMBER(scene.model.friction_law),
+             "Friction coefficient: solid.friction (the paper), or mu(I), which it is at rest (Jop et al. "
+             "2006)."),
       key("model.colour", "", any, MEMBER(scene.model.colour), "Colour of the solid, (25)."),
   };
 }

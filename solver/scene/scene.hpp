@@ -72,6 +72,8 @@ struct Contact {
   double solid_fraction_min = 0.57;    // f_s,min, random loose packing [-]
   double solid_fraction_max = 0.63;    // f_s,max [-]
   double regularisation = 1e5;         // n of (17) [s]
+  double fast_friction = 0.643;        // mu_2 of mu(I), tan(32.76 degrees): glass beads, Jop et al. 2006 [-]
+  double inertial_number = 0.279;      // I_0 of mu(I), likewise [-]
   bool operator==(const Contact&) const = default;
 };
 
@@ -105,6 +107,9 @@ struct Gate {
 
 // --- what is modelled --------------------------------------------------------------------------------
 
+// Friction coefficient of (17): eta_s alone (the paper), or mu(I) from eta_s at rest to mu_2 at speed.
+enum class FrictionLaw { constant, inertial };
+
 enum class TemperatureModel { transported, algebraic, off };
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
@@ -116,7 +121,8 @@ struct Model {
   bool dilatancy_pressure = true;  // P_s^EF, eq (14)
   bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
   bool contact_friction = true;    // tau_s^E, eq (17)
-  bool colour = true;              // eq (25)
+  FrictionLaw friction_law = FrictionLaw::constant;
+  bool colour = true;  // eq (25)
   bool operator==(const Model&) const = default;
 };
 

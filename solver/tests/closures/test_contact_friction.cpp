@@ -51,5 +51,29 @@ TEST(ContactFriction, VanishesWithoutPressureOrFriction) {
   EXPECT_EQ(friction_viscosity(pressure, 0.0, n, 1.0), 0.0);
 }
 
+// Glass beads of Jop et al. 2006.
+double mu(double p, double norm) {
+  return inertial_friction(p, norm, 0.38, 0.643, 0.279, 2500.0, 5e-4);
+}
+
+TEST(InertialFriction, Value) {
+  // gamma = 100 1/s, P = 250 Pa: I = 100 * 5e-4 / sqrt(0.1) = 0.158114
+  EXPECT_NEAR(mu(250.0, 50.0), 0.38 + 0.263 / (1.0 + 0.279 / 0.15811388300841897), 1e-12);
+}
+
+TEST(InertialFriction, Limits) {
+  EXPECT_EQ(mu(100.0, 0.0), 0.38);
+  EXPECT_EQ(mu(0.0, 0.0), 0.38);
+  EXPECT_NEAR(mu(0.0, 1.0), 0.643, 1e-15);
+  EXPECT_NEAR(mu(1.0, 1e9), 0.643, 1e-6);
+}
+
+TEST(InertialFriction, GrowsWithRateAndFallsWithPressure) {
+  for (double norm = 1e-3; norm < 1e3; norm *= 2.0) {
+    EXPECT_LT(mu(100.0, norm), mu(100.0, 2.0 * norm)) << norm;
+    EXPECT_GT(mu(100.0, norm), mu(200.0, norm)) << norm;
+  }
+}
+
 }  // namespace
 }  // namespace granvof::closures

@@ -30,7 +30,8 @@ constexpr Units si{1.0, 1.0, 1.0};
 constexpr Units other{3.0, 7.0, 0.2};
 
 struct Values {
-  double drag, restitution, eddy, pressure, enduring, viscosity, conductivity, dissipation, friction;
+  double drag, restitution, eddy, pressure, enduring, viscosity, conductivity, dissipation, friction,
+      inertial;
 };
 
 Values evaluate(const Units& u) {
@@ -54,7 +55,8 @@ Values evaluate(const Units& u) {
           .viscosity = kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s),
           .conductivity = conductivity(f_s, theta, e, g0, rho_s, d_s),
           .dissipation = dissipation(f_s, theta, e, g0, rho_s, d_s, 3.0 / u.s),
-          .friction = friction_viscosity(enduring, 0.4, contact.regularisation, 2e-5 / u.s)};
+          .friction = friction_viscosity(enduring, 0.4, contact.regularisation, 2e-5 / u.s),
+          .inertial = inertial_friction(enduring, 10.0 / u.s, 0.4, 0.643, 0.279, rho_s, d_s)};
 }
 
 TEST(Units, EveryClosureIsDimensionallyConsistent) {
@@ -73,6 +75,7 @@ TEST(Units, EveryClosureIsDimensionallyConsistent) {
   expect_scaled(a.conductivity, b.conductivity, other.viscosity(), "conductivity [Pa s]");
   expect_scaled(a.dissipation, b.dissipation, other.pressure() / other.s, "dissipation [W/m3]");
   expect_scaled(a.friction, b.friction, other.viscosity(), "friction viscosity [Pa s]");
+  expect_scaled(a.inertial, b.inertial, 1.0, "inertial friction [-]");
 }
 
 }  // namespace
