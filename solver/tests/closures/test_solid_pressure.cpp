@@ -56,7 +56,7 @@ TEST(SolidPressure, EnduringPartIsWhatKineticTheoryLeaves) {
 // Grains at rest in a partly filled cell: the largest of three claims; friction gets what kinetic theory
 // leaves.
 TEST(SolidPressure, RestingWeightIsAThirdClaimant) {
-  const double resting = 40.0;  // [Pa per solid fraction]
+  const double resting = 4.0;  // [Pa per solid fraction]
   double previous = 0.0;
   bool kinetic_wins = false, weight_wins = false, dense_wins = false;
   for (double f = 0.01; f < 0.64; f += 0.002) {
@@ -76,9 +76,9 @@ TEST(SolidPressure, RestingWeightIsAThirdClaimant) {
     dense_wins = dense_wins || expected == dense;
   }
   EXPECT_TRUE(kinetic_wins && weight_wins && dense_wins);
-  EXPECT_NEAR(solid_pressure(0.3, 0.0, e, rho_s, paper, true, resting).value, 12.0, 1e-12);
+  EXPECT_NEAR(solid_pressure(0.3, 0.0, e, rho_s, paper, true, resting).value, 1.2, 1e-12);
   EXPECT_NEAR(solid_pressure(0.3, 0.0, e, rho_s, paper, true, resting).slope, resting, 1e-12);
-  EXPECT_NEAR(enduring_pressure(0.3, 0.0, e, rho_s, paper, false, resting), 12.0, 1e-12);
+  EXPECT_NEAR(enduring_pressure(0.3, 0.0, e, rho_s, paper, false, resting), 1.2, 1e-12);
 }
 
 TEST(SolidPressure, SlopeIsTheDerivative) {
