@@ -10,8 +10,9 @@
 namespace granvof {
 namespace {
 
-constexpr double velocity_tolerance = 1e-7;  // [m/s]: residual over the face's own mass, drag included
-constexpr double relative_tolerance = 1e-4;
+constexpr double velocity_tolerance = 1e-9;  // [m/s]: residual over the face's own mass, drag included
+constexpr double slowest_sliding = 1e-7;     // [m/s] below which a Coulomb wall holds like a viscous one
+constexpr double relative_tolerance = 1e-6;
 constexpr int most_iterations = 300;
 constexpr int smoothing = 2;
 
@@ -161,7 +162,7 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
           const double along = v[i] - u_wall;
           const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
           const double speed = std::sqrt(along * along + across * across);
-          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, velocity_tolerance));
+          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, slowest_sliding));
         });
       }
     }

@@ -86,7 +86,7 @@ void ImplicitViscosity::set_sides(int d, int e, const double* edge) {
 
 bool ImplicitViscosity::apply(double dt, const Field& viscosity, const FaceInertia& inertia,
                               const FaceField& beta, const Aperture& aperture, const FaceField& u_old,
-                              FaceField& u_c, FaceField& u_s) {
+                              FaceField& predicted_c, FaceField& u_c, FaceField& u_s) {
   bool converged = true;
   for (int d = 0; d < grid_.dim; ++d) {
     set_system(d, dt, viscosity, inertia, beta, aperture);
@@ -105,12 +105,15 @@ bool ImplicitViscosity::apply(double dt, const Field& viscosity, const FaceInert
         faces, diagonal_.data(), rhs, x,
         {velocity_tolerance * heaviest, relative_tolerance, most_iterations});
     converged = converged && report.converged;
-    const double *b = beta[d].data(), *solid = inertia.solid[d].data();
+    const double *b = beta[d].data(), *solid = inertia.solid[d].data(), *own = inertia.fluid[d].data();
+    double* star = predicted_c[d].data();
     for_each(layout, [=](std::ptrdiff_t c) {
       if (open[c] == 0.0) return;
       const double change = old[c] + x[c] - fluid[c];
+      const double of_grains = b[c] > 0.0 ? b[c] / (solid[c] / dt + b[c]) * change : 0.0;
       fluid[c] += change;
-      if (b[c] > 0.0) grains[c] += b[c] / (solid[c] / dt + b[c]) * change;
+      grains[c] += of_grains;
+      star[c] += change + solid[c] / own[c] * of_grains;
     });
     boundary_.exchange(u_c[d]);
     boundary_.exchange(u_s[d]);

@@ -27,9 +27,11 @@ class ImplicitViscosity {
   ImplicitViscosity(const Grid& grid, const Boundary& boundary, const Communicator& communicator);
 
   // `viscosity`: f_c (mu_c + mu_t) of the cells [Pa s], ghosts filled; u_old: u_c^n. u_c and u_s change on
-  // the open faces of the fluid and on those that hold grains. False if a component did not converge.
+  // the open faces of the fluid and on those that hold grains; `predicted_c` gains what the force does to the
+  // fluid alone, so that it stays the predictor of all viscous forces. False if a component did not converge.
   bool apply(double dt, const Field& viscosity, const FaceInertia& inertia, const FaceField& beta,
-             const Aperture& aperture, const FaceField& u_old, FaceField& u_c, FaceField& u_s);
+             const Aperture& aperture, const FaceField& u_old, FaceField& predicted_c, FaceField& u_c,
+             FaceField& u_s);
 
  private:
   void set_system(int d, double dt, const Field& viscosity, const FaceInertia& inertia, const FaceField& beta,

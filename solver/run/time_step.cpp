@@ -64,7 +64,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     bool converged = true;
     cost_.time("fluid viscosity", [&] {
       converged = implicit_viscosity_.apply(dt, viscosity_.of_cells(), inertia_, drag_.beta(), aperture_,
-                                            now.u_c, next.u_c, next.u_s);
+                                            now.u_c, predicted_c_, next.u_c, next.u_s);
     });
     if (!converged) {
       report.refused_because = "the fluid viscosity did not converge";
