@@ -13,7 +13,7 @@ namespace {
 constexpr double velocity_tolerance = 1e-9;  // [m/s]: residual over the face's own mass, drag included
 constexpr double slowest_sliding = 1e-7;     // [m/s] below which a Coulomb wall holds like a viscous one
 constexpr double relative_tolerance = 1e-6;
-constexpr int most_iterations = 300;
+constexpr int most_iterations = 1000;  // a bed that locks in its first step took more than 300
 constexpr int smoothing = 2;
 
 linear::Components pointers(FaceField& f, int dim) {
