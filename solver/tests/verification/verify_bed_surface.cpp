@@ -69,7 +69,7 @@ TEST_P(TopCell, BearsItsWeight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Surface, TopCell, ::testing::Bool(),
-                         [](const auto& info) { return info.param ? "PartCells" : "WholeCells"; });
+                         [](const auto& given) { return given.param ? "PartCells" : "WholeCells"; });
 
 // Part-cells must not hold what is dispersed: beads at f_s = 0.02 rain onto a floor 0.04 m below the middle;
 // the solid that has left the upper half after a time is the same to 1 %. Expected failure, red if it gets
