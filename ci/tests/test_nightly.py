@@ -4,6 +4,7 @@ import fcntl
 import json
 import os
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -59,7 +60,9 @@ def commit(root):
 
 def nightly(root, *arguments):
     return subprocess.run([root / "ci/nightly", "--frequency", "nightly", *arguments], capture_output=True, text=True,
-                          check=False, env={**os.environ, "MPLCONFIGDIR": str(root / "out/matplotlib")})
+                          check=False, env={**os.environ, "MPLCONFIGDIR": str(root / "out/matplotlib")},
+                          # a job started in the background ignores interrupts, and its children with it
+                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
 
 def test_twice_on_one_commit_is_no_change_then_a_change_then_blessed(repository):
