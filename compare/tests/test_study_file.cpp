@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "compare/input/table_error.hpp"
 #include "compare/study/study_file.hpp"
+#include "compare/tests/toml_refusal.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -35,20 +35,11 @@ against = "DEM"
 )toml";
 
 std::string message_of(const std::string& text) {
-  try {
-    parse_study(text, "study.toml");
-  } catch (const TableError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { parse_study(text, "study.toml"); });
 }
 
-// `good` with one line of it replaced.
 std::string replaced(const std::string& line, const std::string& by) {
-  std::string text = good;
-  const auto at = text.find(line);
-  EXPECT_NE(at, std::string::npos) << line;
-  return text.replace(at, line.size(), by);
+  return test::with_line_replaced(good, line, by);
 }
 
 TEST(StudyFile, ReadsMethodsPartsAndCharts) {

@@ -4,6 +4,7 @@
 
 #include "compare/checks/evaluate.hpp"
 #include "compare/checks/table.hpp"
+#include "compare/tests/toml_refusal.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -35,20 +36,11 @@ frequency = "verify"
 )toml";
 
 std::string message_of(const std::string& text) {
-  try {
-    parse_table(text, "checks.toml");
-  } catch (const TableError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { parse_table(text, "checks.toml"); });
 }
 
-// `good` with one line of it replaced.
 std::string replaced(const std::string& line, const std::string& by) {
-  std::string text = good;
-  const auto at = text.find(line);
-  EXPECT_NE(at, std::string::npos) << line;
-  return text.replace(at, line.size(), by);
+  return test::with_line_replaced(good, line, by);
 }
 
 TEST(Table, ReadsRowsAndExpandsRuns) {

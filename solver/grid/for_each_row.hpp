@@ -10,8 +10,7 @@ namespace granvof {
 template <typename Body>
 inline void for_each_row(const Layout& l, const Range& r, Body&& body) {
   for (int k = r.lower[2]; k < r.upper[2]; ++k)
-    for (int j = r.lower[1]; j < r.upper[1]; ++j)
-      body(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
+    for (int j = r.lower[1]; j < r.upper[1]; ++j) body(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
 }
 
 }  // namespace granvof

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "solver/closures/contact_friction.hpp"
-#include "solver/grid/for_each_row.hpp"
-#include "solver/operators/stress_power.hpp"
+#include "solver/operators/component_pointers.hpp"
 
 namespace granvof {
 namespace {
@@ -15,12 +14,6 @@ constexpr double slowest_sliding = 1e-7;     // [m/s] below which a Coulomb wall
 constexpr double relative_tolerance = 1e-6;
 constexpr int most_iterations = 1000;  // a bed that locks in its first step took more than 300
 constexpr int smoothing = 2;
-
-linear::Components pointers(FaceField& f, int dim) {
-  linear::Components p{};
-  for (int d = 0; d < dim; ++d) p[d] = f[d].data();
-  return p;
-}
 
 }  // namespace
 
@@ -316,7 +309,8 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
 
   // Solve for the change of the guess: walls, the gate and faces without grains then enter through the
   // residual alone.
-  const linear::Components u = pointers(u_s, grid_.dim), r = pointers(residual_, grid_.dim);
+  const linear::Components u = component_pointers(u_s, grid_.dim),
+                           r = component_pointers(residual_, grid_.dim);
   fill_wall_ghosts(u, true);
   apply(mass, u, r);
   double first = 0.0,
@@ -349,7 +343,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
       [&](const linear::ConstComponents& res, const linear::Components& z) {
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
-      {r[0], r[1], r[2]}, pointers(correction_, grid_.dim),
+      {r[0], r[1], r[2]}, component_pointers(correction_, grid_.dim),
       {std::fmax(velocity_tolerance, least_share), 0.0, most_iterations},
       {inverse_mass_[0].data(), inverse_mass_[1].data(), grid_.dim == 3 ? inverse_mass_[2].data() : nullptr});
   for (int d = 0; d < grid_.dim; ++d) {
@@ -359,55 +353,6 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
     boundary_.exchange(u_s[d]);
   }
   return report;
-}
-
-Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const FaceField& u_end) {
-  if (is_empty(box_)) return {};
-  correction_ = u;
-  const linear::Components v = pointers(correction_, grid_.dim), r = pointers(residual_, grid_.dim);
-  fill_wall_ghosts(v, true);
-  apply(mass, v, r);
-  Power power;
-  const double *mu = mu_.data(), *kinetic = lambda_.data(), *div = divergence_.data();
-  double total = sum_over(grid_.cells, grid_.all_cells(),
-                          [=](std::ptrdiff_t c) { return kinetic[c] * div[c] * div[c]; });
-  power.kinetic = total;
-  for (int d = 0; d < grid_.dim; ++d) {
-    const std::ptrdiff_t s = grid_.stride(d);
-    const double inv_h = 1.0 / grid_.h[d];
-    const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(), *end = u_end[d].data();
-    power.on_grains += sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
-      return m[c] != 0.0 ? end[c] * (own[c] * x[c] - y[c]) : 0.0;
-    });
-    double all = 0.0, of_kinetic = 0.0;
-    for_each_row(grid_.cells, grid_.all_cells(), [&](std::ptrdiff_t start, int n) {
-#pragma omp simd reduction(+ : all, of_kinetic)
-      for (int i = 0; i < n; ++i) {
-        const std::ptrdiff_t c = start + i;
-        const double stretch = (x[c + s] - x[c]) * inv_h;
-        all += 2.0 * mu[c] * stretch * stretch;
-        of_kinetic += 2.0 * kinetic[c] * stretch * stretch;
-      }
-    });
-    total += all;
-    power.kinetic += of_kinetic;
-    for (int e = d + 1; e < grid_.dim; ++e) {
-      const double *tau = shear_[plane_index(d, e)].data(), *edge = mu_edge_[plane_index(d, e)].data();
-      const std::ptrdiff_t t = grid_.stride(e);
-      total += sum_over_edges(
-          grid_, d, e, [=](std::ptrdiff_t c) { return edge[c] > 0.0 ? tau[c] * tau[c] / edge[c] : 0.0; });
-      power.kinetic += sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) {
-        const double mean = 0.25 * (kinetic[c] + kinetic[c - s] + kinetic[c - t] + kinetic[c - s - t]);
-        return edge[c] > 0.0 ? tau[c] * tau[c] / edge[c] * std::fmin(1.0, mean / edge[c]) : 0.0;
-      });
-    }
-  }
-  power.on_grains *= grid_.cell_volume;
-  power.kinetic *= grid_.cell_volume;
-  power.friction = std::fmax(total * grid_.cell_volume - power.kinetic, 0.0);
-  power.walls = wall_power(grid_, boundary_,
-                           [&](int d, int e, std::ptrdiff_t c) { return shear_[plane_index(d, e)][c]; });
-  return power;
 }
 
 }  // namespace granvof

@@ -1,6 +1,6 @@
 #include "solver/operators/plic_transport.hpp"
 
-#include "solver/operators/flux_balance.hpp"
+#include "solver/operators/solid_transport.hpp"
 
 namespace granvof {
 namespace {
@@ -47,15 +47,7 @@ bool cut_of(const Grid& grid, const double* a, std::ptrdiff_t c, Cut& cut) {
 }  // namespace
 
 PlicTransport::PlicTransport(const Grid& grid, const Boundary& boundary)
-    : grid_(grid), boundary_(boundary), f_c_(grid), courant_(grid), flux_(grid) {}
-
-int PlicTransport::substeps(double dt, const Field& f_s, const FaceField& flux_c) {
-  outflow_rate(grid_, flux_c, courant_);
-  const double *rate = courant_.data(), *f = f_s.data();
-  const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0,
-                                  [=](std::ptrdiff_t c) { return rate[c] * dt / (1.0 - f[c]); });
-  return std::max(1, static_cast<int>(std::ceil(largest / largest_courant)));
-}
+    : grid_(grid), boundary_(boundary), f_c_(grid), flux_(grid) {}
 
 // One direction: alpha and f_c_ are both brought over the sweep. Returns the liquid that left through the
 // top.
@@ -96,7 +88,8 @@ double PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& al
 
 double PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
                               Field& alpha_new) {
-  const int parts = substeps(dt, f_s, flux_c);
+  const double courant = outflow_courant(grid_, dt, f_s, true, 0.0, flux_c);
+  const int parts = std::max(1, static_cast<int>(std::ceil(courant / largest_courant)));
   const double part = dt / parts;
   alpha_new = alpha;
   const double* f = f_s.data();

@@ -24,12 +24,11 @@ class PlicTransport {
   double advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new);
 
  private:
-  int substeps(double dt, const Field& f_s, const FaceField& flux_c);
   double sweep(int d, double dt, const FaceField& flux_c, Field& alpha);
 
   const Grid& grid_;
   const Boundary& boundary_;
-  Field f_c_, courant_, flux_;
+  Field f_c_, flux_;
 };
 
 }  // namespace granvof

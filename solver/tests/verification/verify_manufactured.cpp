@@ -8,14 +8,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "solver/closures/contact_friction.hpp"
 #include "solver/closures/contact_pressure.hpp"
 #include "solver/closures/drag.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/periodic_box.hpp"
 
 namespace granvof::test {
 namespace {
@@ -23,9 +22,6 @@ namespace {
 using Point = std::array<double, 2>;
 using Function = std::function<double(const Point&)>;
 using Vector = std::array<Function, 2>;
-
-constexpr double side = 0.1;                        // of the periodic box [m]
-const double wave = 2.0 * std::numbers::pi / side;  // [1/m]
 
 double derivative(const Function& g, Point x, int d) {
   constexpr double step = 2e-3 * side;
@@ -112,52 +108,12 @@ class Manufactured {
   const Scene& scene_;
 };
 
+// Soft, gently regularised contacts, so that all terms of the balance are of one size.
 Scene packed_box(int cells, const char* flux) {
-  const std::vector<std::string> overrides{fmt::format("grid.dx={}", side / cells),
-                                           fmt::format("numerics.dt_max={}", 0.016 / cells),
-                                           std::string("numerics.solid_flux=") + flux};
-  return parse_scene(
-      R"(
-[scene]
-name = "box"
-[tank]
-size = [0.1, 0.1]
-gravity = 0
-[grid]
-dx = 0.1
-[walls]
-left = "periodic"
-right = "periodic"
-bottom = "periodic"
-top = "periodic"
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 0.01
-level = 0.1
-[solid]
-density = 2500
-diameter = 2e-3
-friction = 0.4
-[contact]
-stiffness = 1e6
-regularisation = 0.05
-[bed]
-length = 0.1
-height = 0.1
-solid_fraction = 0.58
-[model]
-les = false
-granular_temperature = "off"
-[time]
-end = 100
-[numerics]
-volume_tolerance = 1e-10
-linear_tolerance = 1e-6
-)",
-      "box", overrides);
+  return periodic_box(cells, 0.016 / cells,
+                      {std::string("numerics.solid_flux=") + flux, "liquid.viscosity=0.01",
+                       "contact.stiffness=1e6", "contact.regularisation=0.05", "bed.solid_fraction=0.58",
+                       "numerics.volume_tolerance=1e-10", "numerics.linear_tolerance=1e-6"});
 }
 
 struct Errors {  // rms, of the amplitude chosen [-]

@@ -4,56 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/periodic_box.hpp"
 
 namespace granvof::test {
 namespace {
-
-constexpr double side = 0.1;                        // of the periodic box [m]
-const double wave = 2.0 * std::numbers::pi / side;  // [1/m]
-
-Scene periodic_box(int cells, double dt, const std::vector<std::string>& extra) {
-  std::vector<std::string> overrides{fmt::format("grid.dx={}", side / cells),
-                                     fmt::format("numerics.dt_max={}", dt)};
-  overrides.insert(overrides.end(), extra.begin(), extra.end());
-  return parse_scene(R"(
-[scene]
-name = "box"
-[tank]
-size = [0.1, 0.1]
-gravity = 0
-[grid]
-dx = 0.1
-[walls]
-left = "periodic"
-right = "periodic"
-bottom = "periodic"
-top = "periodic"
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 0.05
-level = 0.1
-[solid]
-density = 2500
-diameter = 2e-3
-friction = 0.4
-[bed]
-length = 0.1
-height = 0.1
-solid_fraction = 0.3
-[model]
-les = false
-granular_temperature = "off"
-[time]
-end = 100
-[numerics]
-volume_tolerance = 1e-9
-)",
-                     "box", overrides);
-}
 
 // Taylor & Green's decaying vortices, an exact solution of (5) without grains:
 //   u = U sin(kx) cos(ky) exp(-2 nu k^2 t), v = -U cos(kx) sin(ky) exp(-2 nu k^2 t).
