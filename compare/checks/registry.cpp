@@ -149,6 +149,24 @@ Measured solid_level_distance(const Run& run, const Parameters& p, const FindRun
                   "the two curves do not cover the window");
 }
 
+// --- values of a curve at a time ------------------------------------------------------------------------
+
+Measured grain_front_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("front_dilute"), *p.at), "no grain front at that time");
+}
+
+Measured solid_height_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("y_solid_mean"), *p.at), "no solids at that time");
+}
+
+Measured interface_height_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("interface_height"), *p.at), "no interface at that time");
+}
+
+Measured liquid_front_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(scaled_liquid_front(run), *p.at), "no liquid front at that tau");
+}
+
 // --- volumes, bounds, speeds, cost ---------------------------------------------------------------------
 
 // The solver's own account covers every step, the series only the output times: the worse of the two counts.
@@ -253,6 +271,12 @@ constexpr std::array table{
     MetricEntry{"solid_level_distance", "m",
                 "rms over t of the height of a level of f_s against a published one",
                 Needs{.window = true, .level = true, .published = true}, solid_level_distance},
+    MetricEntry{"grain_front", "m", "grain front (f_s >= 0.30) at t = at", at_only, grain_front_at},
+    MetricEntry{"solid_height", "m", "height of the centre of mass of all solids at t = at", at_only,
+                solid_height_at},
+    MetricEntry{"interface_height", "m", "height of alpha = 0.5 in the profile over the tank at t = at",
+                at_only, interface_height_at},
+    MetricEntry{"liquid_front", "-", "x / a of the water front at tau = at", at_only, liquid_front_at},
     MetricEntry{"solid_volume_error", "-", "largest relative change of the solid volume", none,
                 solid_volume_error},
     MetricEntry{"liquid_volume_error", "-", "largest relative change of the liquid volume", none,

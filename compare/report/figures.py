@@ -2,13 +2,14 @@
 defines a metric. Each function gives back the names of the plots it wrote, none if it has nothing to show."""
 
 from report import energy, stability
+from report.beads import dambreak_beads_plot, water_entry_plot
 from report.collapse import base_pressure_plot, floating_run_out_plot, run_out_plot, viscous_plot
 from report.floating import centre_plot, floating_plot
 from report.parts import dam_break_plot, sedimentation_plot, sloshing_plot
 from report.snapshots import snapshot_plot
 
 PLOTS = (run_out_plot, base_pressure_plot, floating_run_out_plot, centre_plot, floating_plot, dam_break_plot,
-         sloshing_plot, sedimentation_plot, viscous_plot)
+         sloshing_plot, sedimentation_plot, viscous_plot, water_entry_plot, dambreak_beads_plot)
 
 # Plot name -> what it shows; the page prints these beneath the plots.
 CAPTIONS = {
@@ -24,6 +25,8 @@ CAPTIONS = {
     "sedimentation": "Fronts of a settling suspension, where f_s passes 0.25 and 0.55.",
     "viscous-collapse": "Collapse in a viscous liquid: front and excess pore pressure at the base. The model has no viscous "
                         "dilatancy: its sign is what can be compared, not its time scale.",
+    "water-entry": "Beads falling into water: height of their centre of mass, and of the surface they raise.",
+    "dambreak-beads": "Dam break with beads: fronts of the water and of the beads (f_s = 0.30).",
 }
 
 

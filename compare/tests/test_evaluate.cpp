@@ -255,6 +255,21 @@ TEST_F(Evaluate, AFrontAgainstAPublishedSeries) {
   EXPECT_FALSE(evaluate_row(row("[0.1, 0.6]")).results[0].value);
 }
 
+TEST_F(Evaluate, AFrontAtATimeIsHeldAgainstItsRecord) {
+  write_run("s1", series(0.1));
+  write_record("seed1", 0.2, scene_.reference_hash);
+  const auto row = [](const std::string& at) {
+    return "metric = \"grain_front\"\nat = " + at +
+           "\nreference = { kind = \"DEM\", record = \"s1\" }\n"
+           "tolerance = { absolute = 0.01, unit = \"m\" }\n";
+  };
+  const Evaluation inside = evaluate_row(row("0.35"));
+  EXPECT_NEAR(*inside.results[0].value, 0.135, 1e-6);
+  EXPECT_NEAR(*inside.results[0].reference, 0.170, 1e-6);
+  EXPECT_EQ(inside.results[0].judgement.verdict, Verdict::differs);
+  EXPECT_FALSE(evaluate_row(row("0.8")).results[0].value);  // after the end of the run
+}
+
 TEST_F(Evaluate, ABadCaseIsAnError) {
   paths_.cases = root_ / "nowhere";
   EXPECT_THROW(evaluate_row(volume_row), CaseError);
