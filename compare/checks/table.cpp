@@ -38,7 +38,7 @@ Parameters read_parameters(const TomlEntry& check, const MetricEntry& metric) {
     return needed;
   };
   if (need(metric.needs.window, "window")) parameters.window = check.window("window");
-  if (need(metric.needs.at, "at")) parameters.at = check.number("at");
+  need(metric.needs.at, "at");  // read by its caller: it may be a list
   if (need(metric.needs.quiet, "quiet")) parameters.quiet = check.non_negative("quiet");
   if (need(metric.needs.level, "level")) parameters.level = check.number("level");
   if (need(metric.needs.published, "published")) parameters.published = check.text("published");
@@ -47,13 +47,21 @@ Parameters read_parameters(const TomlEntry& check, const MetricEntry& metric) {
   return parameters;
 }
 
+std::string source_of_record(std::string_view record) {
+  return fmt::format("reference/results/{}", record);
+}
+
+// A reference of kind DEM without a record, value or formula stands for the record of each row's run.
 Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
   entry.allow_only({"kind", "source", "value", "formula", "record", "band"});
   Reference reference;
   reference.kind = entry.one_of("kind", {ReferenceKind::theory, ReferenceKind::published, ReferenceKind::dem,
                                          ReferenceKind::regression});
   const int given = int{entry.has("value")} + int{entry.has("formula")} + int{entry.has("record")};
-  if (given != 1) entry.fail("", "give exactly one of 'value', 'formula' and 'record'");
+  const bool own_record = given == 0 && reference.kind == ReferenceKind::dem;
+  if (given != 1 && !own_record)
+    entry.fail("",
+               "give exactly one of 'value', 'formula' and 'record' (DEM: or none, the record of the run)");
   if (entry.has("value")) reference.value = entry.number("value");
   if (entry.has("formula")) {
     reference.formula = entry.text("formula");
@@ -69,11 +77,11 @@ Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
     if (reference.kind != ReferenceKind::dem)
       entry.fail("record", "only a reference of kind DEM has a record");
     reference.record = entry.text("record");
-    reference.source = fmt::format("reference/results/{}", *reference.record);
+    reference.source = source_of_record(*reference.record);
   }
   if (entry.has("source"))
     reference.source = entry.text("source");
-  else if (reference.source.empty())
+  else if (reference.source.empty() && !own_record)
     entry.fail("", "the key 'source' is missing: where does the value come from?");
   if (entry.has("band")) reference.band = entry.non_negative("band");
   return reference;
@@ -105,6 +113,19 @@ std::string id_of(const Check& check) {
   return id + fmt::format(".{}", name_of(check.reference.kind));
 }
 
+Check row(Check check, const Reference& reference, std::optional<double> at, const std::string& run) {
+  check.run = run;
+  check.parameters.at = at;
+  check.reference = reference;
+  if (!reference.value && !reference.formula && !reference.record) {
+    check.reference.record = run;
+    if (reference.source.empty()) check.reference.source = source_of_record(run);
+  }
+  check.id = id_of(check);
+  return check;
+}
+
+// A row for each of its references, instants and runs.
 std::vector<Check> read_check(const TomlEntry& entry) {
   entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
                     "reference", "relation", "tolerance", "asserted", "frequency", "expected_failure",
@@ -116,7 +137,6 @@ std::vector<Check> read_check(const TomlEntry& entry) {
   if (!metric)
     entry.fail("metric", fmt::format("'{}' given; allowed: {}", check.metric, names_of(metrics())));
   check.parameters = read_parameters(entry, *metric);
-  check.reference = read_reference(entry.entry("reference"), *metric);
   check.tolerance = read_tolerance(entry.entry("tolerance"), *metric);
   if (entry.has("relation"))
     check.relation = entry.one_of("relation", {Relation::equal, Relation::at_most, Relation::at_least});
@@ -130,11 +150,16 @@ std::vector<Check> read_check(const TomlEntry& entry) {
     if (!check.asserted) entry.fail("expected_failure", "a row that is not asserted cannot fail");
   }
   if (entry.has("label")) check.label = entry.text("label");
+  std::vector<std::optional<double>> instants{std::nullopt};
+  if (metric->needs.at) {
+    instants.clear();
+    for (const double at : entry.numbers("at")) instants.push_back(at);
+  }
   std::vector<Check> checks;
-  for (const std::string& run : entry.texts("run")) {
-    check.run = run;
-    check.id = id_of(check);
-    checks.push_back(check);
+  for (const TomlEntry& reference : entry.entry_or_entries("reference")) {
+    const Reference read = read_reference(reference, *metric);
+    for (const auto& at : instants)
+      for (const std::string& run : entry.texts("run")) checks.push_back(row(check, read, at, run));
   }
   return checks;
 }

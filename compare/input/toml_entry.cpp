@@ -60,6 +60,15 @@ std::vector<std::string> TomlEntry::texts(std::string_view key) const {
   return list;
 }
 
+std::vector<double> TomlEntry::numbers(std::string_view key) const {
+  const toml::array* array = require(key).as_array();
+  if (!array) return {number(key)};
+  std::vector<double> list;
+  for (const toml::node& node : *array) list.push_back(number_of(node, key));
+  if (list.empty()) fail(key, "the list is empty");
+  return list;
+}
+
 std::vector<double> TomlEntry::positives(std::string_view key) const {
   const toml::array* array = require(key).as_array();
   if (!array || array->empty()) fail(key, "expected a list of numbers");
@@ -92,6 +101,13 @@ TomlEntry TomlEntry::entry(std::string_view key) const {
   const toml::table* inner = require(key).as_table();
   if (!inner) fail(key, "expected a table { ... }");
   return {*inner, fmt::format("{}.{}", path_, key), file_};
+}
+
+std::vector<TomlEntry> TomlEntry::entry_or_entries(std::string_view key) const {
+  if (!require(key).is_array()) return {entry(key)};
+  std::vector<TomlEntry> list = entries(key);
+  if (list.empty()) fail(key, "the list is empty");
+  return list;
 }
 
 std::vector<TomlEntry> TomlEntry::entries(std::string_view key) const {

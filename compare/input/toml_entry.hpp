@@ -36,12 +36,16 @@ class TomlEntry {
   bool truth(std::string_view key) const;
   // One text or a list of them, not empty.
   std::vector<std::string> texts(std::string_view key) const;
+  // One number or a list of them, not empty.
+  std::vector<double> numbers(std::string_view key) const;
   // A list of numbers > 0, not empty.
   std::vector<double> positives(std::string_view key) const;
   Window window(std::string_view key) const;
   // Overrides "key=value".
   std::vector<std::string> assignments(std::string_view key) const;
   TomlEntry entry(std::string_view key) const;
+  // One table or a list of them, not empty.
+  std::vector<TomlEntry> entry_or_entries(std::string_view key) const;
   // The [[key]] entries; none where there is no such key.
   std::vector<TomlEntry> entries(std::string_view key) const;
 

@@ -43,6 +43,25 @@ std::string replaced(const std::string& line, const std::string& by) {
   return test::with_line_replaced(good, line, by);
 }
 
+TEST(Table, ARowForEachReferenceInstantAndRun) {
+  const Table table = parse_table(runs + R"toml([[check]]
+run = ["s1", "s2"]
+metric = "run_out"
+at = [2, 5]
+reference = [{ kind = "published", value = 0.3, source = "somewhere" }, { kind = "DEM", band = 0.02 }]
+tolerance = { absolute = 0.1, unit = "-" }
+frequency = "verify"
+)toml",
+                                  "checks.toml");
+  ASSERT_EQ(table.checks.size(), 8u);
+  EXPECT_EQ(table.checks[1].id, "s2.run_out@2.published");
+  EXPECT_EQ(table.checks[6].id, "s1.run_out@5.DEM");
+  EXPECT_DOUBLE_EQ(*table.checks[6].parameters.at, 5.0);
+  EXPECT_EQ(*table.checks[7].reference.record, "s2");  // without a name: that of the run
+  EXPECT_EQ(table.checks[7].reference.source, "reference/results/s2");
+  EXPECT_DOUBLE_EQ(table.checks[7].reference.band, 0.02);
+}
+
 TEST(Table, ReadsRowsAndExpandsRuns) {
   const Table table = parse_table(good, "checks.toml");
   ASSERT_EQ(table.runs.size(), 2u);
