@@ -39,6 +39,8 @@ std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::s
     if (entry.path().extension() != ".part" && std::filesystem::exists(entry.path() / "record.json"))
       variants.push_back(entry.path());
   std::sort(variants.begin(), variants.end());
+  if (variants.empty() && std::filesystem::exists(records / name / "record.json"))
+    variants.push_back(records / name);
   std::vector<LoadedRun> loaded;
   loaded.reserve(variants.size());
   for (const auto& variant : variants) loaded.push_back(load_record(variant, scene));

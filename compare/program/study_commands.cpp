@@ -149,7 +149,7 @@ struct StudyCommands::Options {
     if (chart) input.panels = chart->panels;
     if (!against.empty()) input.against = references.at(against);
     CachedRunner made(runner);
-    const AdviseReport report = advise_scene(input, read, made);
+    const AdviseReport report = advise_scene(input, methods_of(read, chart), read.parts, made);
     const fs::path directory = out.empty() ? fs::path("out/advise") : out;
     write(directory, scene.name + ".json", advise_json(report));
     fmt::print("{}", advise_text(report));
@@ -171,10 +171,10 @@ struct StudyCommands::Options {
     std::vector<ChartResult> results;
     for (const Chart& chart : read.charts)
       if (scenes.empty() || std::find(scenes.begin(), scenes.end(), chart.case_name) != scenes.end())
-        results.push_back(make_chart(chart, read.methods, cases, records, made));
+        results.push_back(make_chart(chart, read, cases, records, made));
     const fs::path directory = out.empty() ? fs::path("out/charts") : out;
     write(directory, "charts.csv", charts_csv(results));
-    write(directory, "points.json", charts_json(results, read.methods, iso_date_now()));
+    write(directory, "points.json", charts_json(results, read, iso_date_now()));
     write(directory, "charts.txt", charts_text(results));
     fmt::print("{}", charts_text(results));
     return 0;

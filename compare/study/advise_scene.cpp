@@ -95,18 +95,19 @@ std::optional<Target> known_target(const AdviseInput& input, const Run& run) {
   return std::nullopt;
 }
 
-const Method& reference_method(const AdviseInput& input, const Study& study) {
+const Method& reference_method(const AdviseInput& input, const std::vector<Method>& methods) {
   for (const Panel& panel : input.panels)
-    for (const Method& method : study.methods)
+    for (const Method& method : methods)
       if (panel.against == Against::finest && panel.method == method.name) return method;
-  return study.methods.front();
+  return methods.front();
 }
 
-Target choose_target(const AdviseInput& input, const Study& study, const Scene& scene, SceneBench& bench) {
+Target choose_target(const AdviseInput& input, const std::vector<Method>& methods, const Scene& scene,
+                     SceneBench& bench) {
   const auto wanted = [&](Against kind) { return input.against.value_or(kind) == kind; };
   Target dem = dem_target(input.quantity, scene, input.records, scene.name);
   if (wanted(Against::dem) && dem.observed.defined()) return dem;
-  const Method& method = reference_method(input, study);
+  const Method& method = reference_method(input, methods);
   const Outcome coarse = bench.outcome({input.cells.front(), method, {}});
   if (coarse.run && (wanted(Against::theory) || wanted(Against::published))) {
     auto known = known_target(input, *coarse.run);
@@ -125,12 +126,16 @@ Target choose_target(const AdviseInput& input, const Study& study, const Scene& 
 
 }  // namespace
 
-AdviseReport advise_scene(const AdviseInput& input, const Study& study, Runner& runner) {
+AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& methods,
+                          const std::vector<Part>& parts, Runner& runner) {
   const Scene scene = load_scene(input.case_file, input.set);
   SceneBench bench(input, scene, runner);
-  AdviseReport report{scene.name, "", input, choose_target(input, study, scene, bench), {}, {}};
+  AdviseReport report{scene.name, "", input, choose_target(input, methods, scene, bench), {}, {}};
   bench.aim_at(report.target);
-  report.advice = advise(input.cells, study.methods, study.parts, input.tolerance, bench);
+  std::vector<Method> tried = methods;
+  if (report.target.kind == kind_of_own)
+    std::erase_if(tried, [](const Method& method) { return method.other_model; });
+  report.advice = advise(input.cells, tried, parts, input.tolerance, bench);
   if (!report.advice.chosen) return report;
   report.set = bench.set_of(report.advice.chosen->configuration);
   const Outcome chosen = bench.outcome(report.advice.chosen->configuration);

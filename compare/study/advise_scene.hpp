@@ -32,8 +32,11 @@ struct AdviseReport {
 };
 
 // The reference is the DEM records of the scene where there are some, else theory or a published series, else
-// our own finest grid; or the one that the input names. Throws std::runtime_error where there is none.
-AdviseReport advise_scene(const AdviseInput& input, const Study& study, Runner& runner);
+// our own finest grid (of the first method, unless the panels name another; it is no reference for a method
+// of other equations, which is then not tried); or the one that the input names. Throws std::runtime_error
+// where there is none.
+AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& methods,
+                          const std::vector<Part>& parts, Runner& runner);
 
 std::string advise_text(const AdviseReport& report);
 std::string advise_json(const AdviseReport& report);

@@ -50,7 +50,7 @@ Target target_of(const Panel& panel, const ChartResult& result, const std::vecto
       const Run* finest = run_of(result, outcomes, panel.method, 0);
       if (finest)
         return own_target(panel.quantity, *finest, panel.method, run_of(result, outcomes, panel.method, 1));
-      none.kind = "own finest grid";
+      none.kind = kind_of_own;
       none.note = fmt::format("{} on {} did not finish", panel.method, cell_label(result.chart.grids.back()));
       return none;
     }
@@ -66,26 +66,69 @@ Target target_of(const Panel& panel, const ChartResult& result, const std::vecto
 
 PanelResult judge_panel(const Panel& panel, const ChartResult& result, const std::vector<Outcome>& outcomes,
                         const Scene& scene, const std::filesystem::path& records) {
-  PanelResult judged{panel, target_of(panel, result, outcomes, scene, records), {}, {}};
+  PanelResult judged{panel, target_of(panel, result, outcomes, scene, records), {}, {}, {}};
   std::vector<WorkPrecision> points;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     std::optional<double> error;
-    const bool itself = panel.against == Against::finest && result.points[i].method == panel.method &&
-                        result.points[i].cell == result.chart.grids.back();
-    if (outcomes[i].run && !itself)
+    const ChartPoint& point = result.points[i];
+    const bool itself = point.method == panel.method && point.cell == result.chart.grids.back();
+    const bool held = panel.against != Against::finest || !(itself || point.other_model);
+    if (outcomes[i].run && held)
       error = relative_distance(panel.quantity, observe(panel.quantity, *outcomes[i].run),
                                 judged.target.observed);
     judged.errors.push_back(error);
-    points.push_back({result.points[i].cost, error});
+    points.push_back({point.cost, error});
   }
   judged.front = pareto_front(points);
   return judged;
 }
 
+// A record of others with what a panel needs to judge it.
+struct Recorded {
+  const Other& other;
+  Scene scene;
+  std::filesystem::path directory;  // that holds CASE/
+};
+
+std::vector<Recorded> recorded(const Study& study, const Chart& chart, const std::filesystem::path& file,
+                               const std::filesystem::path& records) {
+  std::vector<Recorded> found;
+  for (const Other& other : study.others) {
+    const auto directory = other.records.empty() ? records : records / other.records;
+    if (!std::filesystem::exists(directory / chart.case_name)) continue;
+    std::vector<std::string> set = chart.set;
+    set.insert(set.end(), other.set.begin(), other.set.end());
+    found.push_back({other, load_scene(file, set), directory});
+  }
+  return found;
+}
+
+// Adds what the others made of the case to the panels.
+void judge_others(ChartResult& result, const std::vector<Recorded>& all) {
+  for (const Recorded& one : all) {
+    std::optional<double> cost;
+    std::vector<std::optional<double>> errors;
+    for (const PanelResult& panel : result.panels) {
+      const Quantity& quantity = panel.panel.quantity;
+      const Target theirs = dem_target(quantity, one.scene, one.directory, result.chart.case_name);
+      if (theirs.cost) cost = theirs.cost;
+      const bool reference = panel.panel.against == Against::dem && one.other.records.empty();
+      const bool held = panel.panel.against != Against::finest && !reference;
+      errors.push_back(held ? relative_distance(quantity, theirs.observed, panel.target.observed)
+                            : std::nullopt);
+    }
+    if (!cost) continue;
+    result.others.push_back({one.other.name, one.other.records, one.other.about, *cost});
+    if (one.other.records.empty()) result.dem_cost = cost;
+    for (std::size_t i = 0; i < errors.size(); ++i) result.panels[i].other_errors.push_back(errors[i]);
+  }
+}
+
 ChartPoint point_of(const Method& method, double cell, const std::vector<std::string>& set,
                     const Outcome& outcome) {
-  ChartPoint point{method.name,          cell,           set,           outcome.failure, "", "", "",
-                   outcome.core_seconds, outcome.cost(), outcome.work()};
+  ChartPoint point{
+      method.name,          cell,           set,           method.other_model, outcome.failure, "", "", "",
+      outcome.core_seconds, outcome.cost(), outcome.work()};
   if (!outcome.facts) return point;
   point.version = outcome.facts->version;
   if (!outcome.facts->commit.empty()) point.version += fmt::format(" ({})", outcome.facts->commit);
@@ -114,14 +157,13 @@ std::string advice(const ChartResult& result, const PanelResult& panel, double t
 
 }  // namespace
 
-ChartResult make_chart(const Chart& chart, const std::vector<Method>& methods,
-                       const std::filesystem::path& cases, const std::filesystem::path& records,
-                       Runner& runner) {
+ChartResult make_chart(const Chart& chart, const Study& study, const std::filesystem::path& cases,
+                       const std::filesystem::path& records, Runner& runner) {
   const auto file = cases / (chart.case_name + ".toml");
   const Scene scene = load_scene(file, chart.set);
-  ChartResult result{chart, {}, {}, {}, std::nullopt};
+  ChartResult result{chart, {}, {}, {}, {}, std::nullopt};
   std::vector<Outcome> outcomes;
-  for (const Method& method : methods)
+  for (const Method& method : methods_of(study, &chart))
     for (std::size_t n = 0; n < chart.grids.size(); ++n) {
       const double cell = chart.grids[n];
       const bool too_dear = cell < chart.down_to * (1.0 - 1e-9) || n >= method.grids.value_or(n + 1);
@@ -137,8 +179,7 @@ ChartResult make_chart(const Chart& chart, const std::vector<Method>& methods,
     }
   for (const Panel& panel : chart.panels)
     result.panels.push_back(judge_panel(panel, result, outcomes, scene, records));
-  for (const PanelResult& panel : result.panels)
-    if (panel.target.cost) result.dem_cost = panel.target.cost;
+  judge_others(result, recorded(study, chart, file, records));
   return result;
 }
 

@@ -17,6 +17,7 @@ struct ChartPoint {
   std::string method;
   double cell = 0.0;  // [m]
   std::vector<std::string> set;
+  bool other_model = false;
   std::string failure;  // empty where it finished
   std::string version, case_hash, host;
   double core_seconds = 0.0;
@@ -24,26 +25,35 @@ struct ChartPoint {
   double work = 0.0;  // work units per simulated second
 };
 
+// What others made of the case, as it is recorded.
+struct OtherPoint {
+  std::string name, source, about;
+  double cost = 0.0;  // [core-s per simulated s]
+};
+
 // What one panel shows of these runs; `errors` in their order.
 struct PanelResult {
   Panel panel;
   Target target;
   std::vector<std::optional<double>> errors;  // nothing: failed, undefined, or the reference itself
-  std::vector<std::size_t> front;             // Pareto, ascending in cost
+  // Of the others, in their order; nothing also against our own finest grid, and where they are the
+  // reference.
+  std::vector<std::optional<double>> other_errors;
+  std::vector<std::size_t> front;  // Pareto among our own runs, ascending in cost
 };
 
 struct ChartResult {
   Chart chart;
   std::vector<ChartPoint> points;
+  std::vector<OtherPoint> others;     // of the study's, those that there is a record of
   std::vector<std::string> left_out;  // "second order on 0.625 mm"
   std::vector<PanelResult> panels;
   std::optional<double> dem_cost;  // [core-s per simulated s], from the records of the case
 };
 
 // Runs what is missing. Throws CaseError for a case that cannot be read; a run that fails is a point.
-ChartResult make_chart(const Chart& chart, const std::vector<Method>& methods,
-                       const std::filesystem::path& cases, const std::filesystem::path& records,
-                       Runner& runner);
+ChartResult make_chart(const Chart& chart, const Study& study, const std::filesystem::path& cases,
+                       const std::filesystem::path& records, Runner& runner);
 
 // One line a panel: "for 10 % / 5 % / 2 % use this, it costs that, DEM-VOF costs so many times more".
 std::vector<std::string> recommendations(const ChartResult& result);
@@ -52,7 +62,6 @@ std::string charts_text(const std::vector<ChartResult>& results);
 // Columns:
 // case,method,cell_m,quantity,against,error,floor,pareto,core_seconds,core_s_per_s,work_units_per_s,failure.
 std::string charts_csv(const std::vector<ChartResult>& results);
-std::string charts_json(const std::vector<ChartResult>& results, const std::vector<Method>& methods,
-                        const std::string& date);
+std::string charts_json(const std::vector<ChartResult>& results, const Study& study, const std::string& date);
 
 }  // namespace granvof::compare

@@ -36,8 +36,10 @@ Json json_panel(const PanelResult& panel) {
             {"floor", panel.target.floor},
             {"note", panel.target.note},
             {"errors", Json::array()},
+            {"other_errors", Json::array()},
             {"pareto", panel.front}};
   for (const auto& error : panel.errors) json["errors"].push_back(json_number(error));
+  for (const auto& error : panel.other_errors) json["other_errors"].push_back(json_number(error));
   return json;
 }
 
@@ -58,6 +60,10 @@ std::string charts_text(const std::vector<ChartResult>& results) {
                             on_front(panel, i) ? "*" : " ", point.method, 1e3 * point.cell, error, point.cost,
                             point.work, point.failure.empty() ? "" : "FAILED: " + point.failure);
       }
+      for (std::size_t i = 0; i < result.others.size(); ++i)
+        if (panel.other_errors[i])
+          text += fmt::format("    {:<45} {:>10} {:>10.3g} core-s/s\n", result.others[i].name,
+                              fmt::format("{:.3g} %", 100.0 * *panel.other_errors[i]), result.others[i].cost);
     }
     for (const std::string& line : recommendations(result)) text += line + "\n";
     if (!result.left_out.empty())
@@ -85,10 +91,10 @@ std::string charts_csv(const std::vector<ChartResult>& results) {
   return text;
 }
 
-std::string charts_json(const std::vector<ChartResult>& results, const std::vector<Method>& methods,
+std::string charts_json(const std::vector<ChartResult>& results, const Study& study,
                         const std::string& date) {
   Json json{{"date", date}, {"methods", Json::array()}, {"charts", Json::array()}};
-  for (const Method& method : methods)
+  for (const Method& method : study.methods)
     json["methods"].push_back({{"name", method.name}, {"set", method.set}, {"about", method.about}});
   for (const ChartResult& result : results) {
     Json chart{{"case", result.chart.case_name},
@@ -96,8 +102,14 @@ std::string charts_json(const std::vector<ChartResult>& results, const std::vect
                {"dem_cost", json_number(result.dem_cost)},
                {"lines", recommendations(result)},
                {"points", Json::array()},
+               {"others", Json::array()},
                {"panels", Json::array()}};
     for (const ChartPoint& point : result.points) chart["points"].push_back(json_point(point));
+    for (const OtherPoint& other : result.others)
+      chart["others"].push_back({{"name", other.name},
+                                 {"source", other.source},
+                                 {"about", other.about},
+                                 {"core_s_per_s", other.cost}});
     for (const PanelResult& panel : result.panels) chart["panels"].push_back(json_panel(panel));
     json["charts"].push_back(std::move(chart));
   }

@@ -10,11 +10,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "compare/input/bands.hpp"
 #include "compare/input/curves.hpp"
 #include "compare/metrics/run_out.hpp"
 
 namespace granvof::compare {
 namespace {
+
+double one(const Run&) {
+  return 1.0;
+}
+
+double initial_height(const Run& run) {
+  return column_of(run).height;
+}
 
 Curve solid_height(const Run& run) {
   return run.curve("y_solid_mean");
@@ -25,17 +34,26 @@ Curve front(const Run& run) {
 }
 
 constexpr std::array curves{
-    CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve},
-    CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front},
-    CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height},
+    CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve, "front_dense [m]", initial_height},
+    CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front, "front_dense [m]", one},
+    CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height, "y_solid_mean [m]",
+               one},
     CurveEntry{"liquid_front", "tau", "-", "x / a of the water front against t sqrt(2 g / a)",
-               scaled_liquid_front},
+               scaled_liquid_front, "", nullptr},
 };
 
 const CurveEntry* find_curve(std::string_view name) {
   const auto* found =
       std::find_if(curves.begin(), curves.end(), [&](const CurveEntry& e) { return e.name == name; });
   return found == curves.end() ? nullptr : found;
+}
+
+// Range of a curve in the window; nothing where it has none.
+std::optional<double> range_of(const Curve& curve, const std::optional<Window>& window) {
+  const Curve seen = window ? clip(curve, *window) : curve;
+  const auto high = maximum(seen);
+  const auto low = minimum(seen);
+  return high && *high > *low ? std::optional(*high - *low) : std::nullopt;
 }
 
 bool complete(const Needs& needs, const Parameters& p) {
@@ -122,12 +140,20 @@ std::optional<double> relative_distance(const Quantity& quantity, const Observed
                       std::min(a.curve.time.back(), b.curve.time.back())};
   const Window window = quantity.parameters.window.value_or(common);
   if (!(window.begin < window.end)) return std::nullopt;
-  const Curve seen = clip(b.curve, window);
-  const auto high = maximum(seen);
-  const auto low = minimum(seen);
+  const auto range = range_of(b.curve, window);
   const auto distance = rms_distance(a.curve, b.curve, window);
-  if (!distance || !high || *high <= *low) return std::nullopt;
-  return *distance / (*high - *low);
+  if (!distance || !range) return std::nullopt;
+  return *distance / *range;
+}
+
+std::optional<double> record_uncertainty(const Quantity& quantity, const Run& record,
+                                         const Observed& observed, const std::filesystem::path& records) {
+  const CurveEntry* entry = quantity.is_curve ? find_curve(quantity.name) : nullptr;
+  if (!entry || entry->column.empty()) return std::nullopt;
+  const auto band = band_of(records, entry->column);
+  const auto range = range_of(observed.curve, quantity.parameters.window);
+  if (!band || !range) return std::nullopt;
+  return *band / (entry->column_per_unit(record) * *range);
 }
 
 }  // namespace granvof::compare

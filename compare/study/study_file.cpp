@@ -13,7 +13,7 @@ namespace granvof::compare {
 namespace {
 
 Method read_method(const TomlEntry& entry) {
-  entry.allow_only({"name", "set", "about", "grids"});
+  entry.allow_only({"name", "set", "about", "grids", "other_model"});
   Method method;
   method.name = entry.text("name");
   if (entry.has("set")) method.set = entry.assignments("set");
@@ -23,7 +23,18 @@ Method read_method(const TomlEntry& entry) {
     if (grids != std::floor(grids)) entry.fail("grids", fmt::format("{} given; allowed: 1, 2, ...", grids));
     method.grids = static_cast<std::size_t>(grids);
   }
+  if (entry.has("other_model")) method.other_model = entry.truth("other_model");
   return method;
+}
+
+Other read_other(const TomlEntry& entry) {
+  entry.allow_only({"name", "records", "set", "about"});
+  Other other;
+  other.name = entry.text("name");
+  if (entry.has("records")) other.records = entry.text("records");
+  if (entry.has("set")) other.set = entry.assignments("set");
+  if (entry.has("about")) other.about = entry.text("about");
+  return other;
 }
 
 Part read_part(const TomlEntry& entry) {
@@ -35,6 +46,12 @@ Part read_part(const TomlEntry& entry) {
   if (entry.has("form")) part.form = entry.one_of("form", {Form::rigid_lid, Form::two_dimensions});
   if (entry.has("about")) part.about = entry.text("about");
   return part;
+}
+
+void require_method(const TomlEntry& entry, std::string_view key, const std::string& name,
+                    const std::vector<Method>& methods) {
+  if (std::none_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; }))
+    entry.fail(key, fmt::format("no [[method]] has the name '{}'", name));
 }
 
 Panel read_panel(const TomlEntry& entry, const Chart& chart, const std::vector<Method>& methods) {
@@ -56,8 +73,9 @@ Panel read_panel(const TomlEntry& entry, const Chart& chart, const std::vector<M
   };
   if (only("method", Against::finest)) {
     panel.method = entry.has("method") ? entry.text("method") : methods.front().name;
-    if (std::none_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == panel.method; }))
-      entry.fail("method", fmt::format("no [[method]] has the name '{}'", panel.method));
+    require_method(entry, "method", panel.method, methods);
+    if (std::find(chart.methods.begin(), chart.methods.end(), panel.method) == chart.methods.end())
+      entry.fail("method", fmt::format("'{}' is not among the methods of the chart", panel.method));
   }
   if (only("record", Against::dem))
     panel.record = entry.has("record") ? entry.text("record") : chart.case_name;
@@ -78,7 +96,7 @@ Panel read_panel(const TomlEntry& entry, const Chart& chart, const std::vector<M
 }
 
 Chart read_chart(const TomlEntry& entry, const std::vector<Method>& methods) {
-  entry.allow_only({"case", "grids", "set", "down_to", "panel"});
+  entry.allow_only({"case", "grids", "set", "methods", "down_to", "panel"});
   Chart chart;
   chart.case_name = entry.text("case");
   chart.grids = entry.positives("grids");
@@ -86,6 +104,9 @@ Chart read_chart(const TomlEntry& entry, const std::vector<Method>& methods) {
     entry.fail("grids", "expected cell sizes from large to small, each once");
   if (chart.grids.size() < 2) entry.fail("grids", "a line needs two cell sizes or more");
   if (entry.has("set")) chart.set = entry.assignments("set");
+  for (const Method& method : methods) chart.methods.push_back(method.name);
+  if (entry.has("methods")) chart.methods = entry.texts("methods");
+  for (const std::string& name : chart.methods) require_method(entry, "methods", name, methods);
   chart.down_to = entry.has("down_to") ? entry.positive("down_to") : chart.grids.back();
   for (const TomlEntry& panel : entry.entries("panel"))
     chart.panels.push_back(read_panel(panel, chart, methods));
@@ -95,15 +116,20 @@ Chart read_chart(const TomlEntry& entry, const std::vector<Method>& methods) {
 
 Study read_root(const toml::table& root, std::string_view name) {
   const TomlEntry top(root, "study", name);
-  top.allow_only({"method", "part", "chart"});
+  top.allow_only({"method", "other", "part", "chart"});
   Study study;
-  std::set<std::string> methods, parts, charts;
+  std::set<std::string> methods, others, parts, charts;
   for (const TomlEntry& entry : top.entries("method")) {
     study.methods.push_back(read_method(entry));
     if (!methods.insert(study.methods.back().name).second)
       entry.fail("name", fmt::format("'{}' is given twice", study.methods.back().name));
   }
   if (study.methods.empty()) top.fail("", "there is no [[method]]");
+  for (const TomlEntry& entry : top.entries("other")) {
+    study.others.push_back(read_other(entry));
+    if (!others.insert(study.others.back().name).second || methods.contains(study.others.back().name))
+      entry.fail("name", fmt::format("'{}' is given twice", study.others.back().name));
+  }
   for (const TomlEntry& entry : top.entries("part")) {
     study.parts.push_back(read_part(entry));
     if (!parts.insert(study.parts.back().name).second)
@@ -135,6 +161,15 @@ std::string_view name_of(Against against) {
       return "published";
   }
   return "finest";
+}
+
+std::vector<Method> methods_of(const Study& study, const Chart* chart) {
+  if (!chart) return study.methods;
+  std::vector<Method> shown;
+  for (const Method& method : study.methods)
+    if (std::find(chart->methods.begin(), chart->methods.end(), method.name) != chart->methods.end())
+      shown.push_back(method);
+  return shown;
 }
 
 Study parse_study(std::string_view text, std::string_view name) {

@@ -17,6 +17,16 @@ struct Method {
   std::string about;
   // On this many of the largest cells only, for a method that is too dear on the others; nothing: on all.
   std::optional<std::size_t> grids = std::nullopt;
+  // It solves other equations than the first method: our own finest grid is no reference for it.
+  bool other_model = false;
+};
+
+// Another program's runs, or the reference's at another resolution, as points of the charts.
+struct Other {
+  std::string name;
+  std::string records;           // below reference/results: RECORDS/CASE/, empty: CASE/
+  std::vector<std::string> set;  // overrides of the case that these runs had
+  std::string about;
 };
 
 // Overrides that depend on the scene.
@@ -42,17 +52,22 @@ struct Panel {
 
 struct Chart {
   std::string case_name;
-  std::vector<double> grids;     // cell sizes [m], descending
-  std::vector<std::string> set;  // of all runs
-  double down_to = 0.0;          // smallest cell of the methods that are no reference [m]
+  std::vector<double> grids;         // cell sizes [m], descending
+  std::vector<std::string> set;      // of all runs
+  std::vector<std::string> methods;  // names of those that are shown
+  double down_to = 0.0;              // smallest cell of the methods that are no reference [m]
   std::vector<Panel> panels;
 };
 
 struct Study {
   std::vector<Method> methods;
+  std::vector<Other> others;
   std::vector<Part> parts;
   std::vector<Chart> charts;
 };
+
+// Those of `chart`, in the study's order; all without one.
+std::vector<Method> methods_of(const Study& study, const Chart* chart);
 
 std::string_view name_of(Form form);
 std::string_view name_of(Against against);

@@ -11,12 +11,14 @@
 namespace granvof::compare {
 namespace {
 
-// What a record cost, the preparation of its beads included [core-s per simulated s].
-std::optional<double> cost_of_record(const RunFacts& facts) {
-  const auto spent = facts.number("core_seconds");
-  const auto simulated = facts.number("simulated_time");
-  if (!spent || !simulated || *simulated <= 0.0) return std::nullopt;
-  return (*spent + facts.number("preparation_core_seconds").value_or(0.0)) / *simulated;
+// What a record cost, the preparation of its beads included, which its core_seconds hold [core-s per
+// simulated s].
+std::optional<double> cost_of_record(const Run& record) {
+  const auto spent = record.facts.number("core_seconds");
+  const auto time = record.series.column("time");
+  const double simulated = time.empty() ? 0.0 : time.back().value_or(0.0);  // stock programs do not state it
+  if (!spent || simulated <= 0.0) return std::nullopt;
+  return *spent / simulated;
 }
 
 // Mean of curves, on the samples of the first that all cover.
@@ -65,8 +67,11 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
       continue;
     }
     Observed observed = observe(quantity, *loaded.run);
-    if (const auto cost = cost_of_record(loaded.run->facts)) dearest = std::max(dearest, *cost);
-    if (observed.defined()) variants.push_back(std::move(observed));
+    if (const auto cost = cost_of_record(*loaded.run)) dearest = std::max(dearest, *cost);
+    if (!observed.defined()) continue;
+    if (const auto band = record_uncertainty(quantity, *loaded.run, observed, records))
+      target.floor = std::max(target.floor, *band);
+    variants.push_back(std::move(observed));
   }
   if (dearest > 0.0) target.cost = dearest;
   if (variants.empty()) {
@@ -79,7 +84,9 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
       target.floor =
           std::max(target.floor, 0.5 * relative_distance(quantity, variants[i], variants[j]).value_or(0.0));
   target.source += fmt::format(", {} record{}", variants.size(), variants.size() == 1 ? "" : "s");
-  if (variants.size() == 1) target.note = "one record: its own uncertainty is not known from it";
+  if (variants.size() == 1)
+    target.note = target.floor > 0.0 ? "one record; its uncertainty is the canary's (seed, grid, slice)"
+                                     : "one record: its own uncertainty is not known from it";
   return target;
 }
 
@@ -99,12 +106,9 @@ Target published_target(const Run& run, const std::string& file, const std::stri
 
 Target own_target(const Quantity& quantity, const Run& finest, const std::string& method,
                   const Run* coarser) {
-  Target target{"own finest grid",
-                fmt::format("{} on {:g} mm", method, 1e3 * finest.scene.grid.spacing[0]),
-                {},
-                0.0,
-                std::nullopt,
-                ""};
+  Target target{kind_of_own,  fmt::format("{} on {:g} mm", method, 1e3 * finest.scene.grid.spacing[0]),
+                {},           0.0,
+                std::nullopt, ""};
   target.observed = observe(quantity, finest);
   target.note = target.observed.note;
   if (coarser)

@@ -19,8 +19,10 @@ struct Target {
   std::string note;
 };
 
+inline constexpr const char* kind_of_own = "own finest grid";
+
 // Mean of the records of `name` that belong to `scene`; floor: half of the largest distance between two of
-// them. One record alone has no floor, and the note says so.
+// them, at least what record_uncertainty() says.
 Target dem_target(const Quantity& quantity, const Scene& scene, const std::filesystem::path& records,
                   const std::string& name);
 // A formula of checks/theory.hpp, computed from `run`.

@@ -1,5 +1,7 @@
 // Silent wrong answers: each is provoked here, and must be seen by the monitor that is there for it.
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +24,21 @@ class RunAlarms : public ::testing::Test {
     return json::parse(test::text_of(directory_.path() / "run" / "run.json"));
   }
   std::filesystem::path path(const char* name) const { return directory_.path() / name; }
+  // Changes a field half-way through a run; the exit code of what goes on from there, and its record in
+  // `resumed_`.
+  int resume_with(const std::function<void(std::vector<double>&)>& change, const char* field = "f_s") {
+    const Scene half = column_scene({"time.end=0.02"}), whole = column_scene({"time.end=0.04"});
+    EXPECT_EQ(run_into(path("run"), half), 0);
+    Checkpoint saved = read_checkpoint(path("run") / "checkpoint.h5", half);
+    CheckpointView view{saved.time, {}, saved.scalars, saved.counters};
+    change(saved.arrays.at(field));
+    for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
+    write_checkpoint(path("run") / "checkpoint.h5", half, view);
+    const int code = run_into(path("run"), whole, true);
+    resumed_ = json::parse(test::text_of(path("run") / "run.json"));
+    return code;
+  }
+  json resumed_;
   static bool warned(const json& record, const char* monitor) {
     return std::any_of(record["warnings"].begin(), record["warnings"].end(),
                        [&](const json& w) { return w["monitor"] == monitor && w["value"] > w["limit"]; });
@@ -49,18 +66,29 @@ TEST_F(RunAlarms, SoftContactIsSeenInThePacking) {
                      "solid fraction"));
 }
 
+// Grains that appear between two steps: a hundredth of all, and, as much as is taken from elsewhere, less
+// than nothing in one empty cell (the next step may fill it: what was seen once stays in the record).
+TEST_F(RunAlarms, GrainsFromNothingAreSeenInTheSolidVolume) {
+  resume_with([](std::vector<double>& f_s) {
+    for (double& value : f_s) value *= 1.01;
+  });
+  EXPECT_TRUE(warned(resumed_, "solid volume")) << resumed_["warnings"];
+  EXPECT_FALSE(warned(resumed_, "negative fraction")) << resumed_["warnings"];
+}
+
+TEST_F(RunAlarms, LessThanNothingIsSeen) {
+  resume_with([](std::vector<double>& f_s) {
+    for (double& value : f_s)
+      if (value == 0.0) value = -1e-3;
+  });
+  EXPECT_TRUE(warned(resumed_, "negative fraction")) << resumed_["warnings"];
+}
+
 // Velocities that nothing has given, as after a blow-up that stays finite: the run stops and says why.
 TEST_F(RunAlarms, EnergyFromNothingStopsTheRun) {
-  const Scene half = column_scene({"time.end=0.02"}), whole = column_scene({"time.end=0.04"});
-  ASSERT_EQ(run_into(path("run"), half), 0);
-  Checkpoint saved = read_checkpoint(path("run") / "checkpoint.h5", half);
-  CheckpointView view{saved.time, {}, saved.scalars, saved.counters};
-  for (double& theta : saved.arrays.at("theta")) theta = 1e6;
-  for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
-  write_checkpoint(path("run") / "checkpoint.h5", half, view);
-  const int code = run_into(path("run"), whole, true);
-  const json record = json::parse(test::text_of(path("run") / "run.json"));
-  EXPECT_TRUE(code == 1 || warned(record, "granular bounds")) << record["exit"]["reason"];
+  const int code =
+      resume_with([](std::vector<double>& theta) { std::fill(theta.begin(), theta.end(), 1e6); }, "theta");
+  EXPECT_TRUE(code == 1 || warned(resumed_, "granular bounds")) << resumed_["exit"]["reason"];
 }
 
 // The rules themselves, each limit alone.
@@ -76,6 +104,25 @@ class AlarmRules : public ::testing::Test {
     Alarms alarms(scene_, start());
     state_.energy = energy;
     stopped_ = alarms.check(state_, Monitors(grid_, scene_, state_), {100, unconverged});
+    return alarms.raised();
+  }
+  // Of a state in which one cell of each kind has changed since the start.
+  std::vector<Warning> raised_after(double bed_scaled_by, double empty_cell_set_to) {
+    Alarms alarms(scene_, start());
+    State changed = state_;
+    Monitors monitors(grid_, scene_, changed);
+    bool set = false;
+    for_each(grid_.cells, [&](std::ptrdiff_t c) {
+      double& f_s = changed.f_s.data()[c];
+      if (f_s > 0.0) f_s *= bed_scaled_by;
+      if (f_s != 0.0 || set) return;
+      f_s = empty_cell_set_to;
+      set = true;
+    });
+    EXPECT_TRUE(set);
+    changed.energy = moving();
+    monitors.update(changed, 0.0);
+    alarms.check(changed, monitors, {100, 0});
     return alarms.raised();
   }
   EnergyTerms start() const {
@@ -121,6 +168,16 @@ TEST_F(AlarmRules, EachLimitRaisesItsOwnAlarm) {
   EXPECT_TRUE(raised(moving(), 1).empty());
   ASSERT_EQ(raised(moving(), 2).size(), 1U);
   EXPECT_EQ(raised(moving(), 2)[0].monitor, "friction solves");
+}
+
+TEST_F(AlarmRules, VolumesAndFractionsHaveTheirOwnLimits) {
+  EXPECT_TRUE(raised_after(1.0 + 0.9e-9, -0.9e-9).empty());
+  const auto volume = raised_after(1.0 + 1.1e-9, 0.0);
+  ASSERT_EQ(volume.size(), 1U);
+  EXPECT_EQ(volume[0].monitor, std::string("solid volume"));
+  const auto fraction = raised_after(1.0, -1.1e-9);
+  ASSERT_EQ(fraction.size(), 1U);
+  EXPECT_EQ(fraction[0].monitor, std::string("negative fraction"));
 }
 
 TEST_F(AlarmRules, MoreEnergyInMotionThanWasEverGivenStops) {
