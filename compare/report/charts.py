@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 """Error against cost, one picture a scene, from points.json of `granvof-compare charts`; runs nothing.
 
-Leaves charts.json beside the pictures, the section of the report (sections.py), with the ablations that there are
-(ablate.json of `granvof-compare ablate`) as tables.
+Leaves charts.json beside the pictures, the section of the report (sections.py), with the ablations and the advice that
+there are (SCENE/ablate.json of `granvof-compare ablate`, SCENE.json of `granvof-compare advise`) as tables.
+
+--keep DIR copies what was drawn from, a few JSON files, to DIR (compare/kept): the report of a clone in which no chart was
+run shows these, with their version and date.
 """
 
 import argparse
@@ -15,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from report import style  # noqa: E402
 from report.style import plt  # noqa: E402
 
-LOWEST = 1e-4  # relative; an error below it is drawn there
+LOWEST = 1e-4  # relative; an error below it is drawn there, as is one far inside the reference's own uncertainty
 
 
 def load(directory):
@@ -29,9 +32,15 @@ def ablations(directory):
     return [json.loads(path.read_text()) for path in sorted(Path(directory).glob("*/ablate.json"))]
 
 
+def advices(directory):
+    """What `granvof-compare advise` left in `directory`, one entry a scene."""
+    return [json.loads(path.read_text()) for path in sorted(Path(directory).glob("*.json"))]
+
+
 def look(methods):
     """Colour, marker and line of each method, the same in all charts."""
-    return {method["name"]: {"color": style.CYCLE[i % len(style.CYCLE)], "marker": style.MARKERS[i % len(style.MARKERS)],
+    colours = style.CYCLE + ["#882255", "0.45", style.BLACK]  # yellow is too pale for a line
+    return {method["name"]: {"color": colours[i % len(colours)], "marker": style.MARKERS[i % len(style.MARKERS)],
                              "linestyle": style.LINES[i % len(style.LINES)]} for i, method in enumerate(methods)}
 
 
@@ -40,7 +49,7 @@ def draw(chart, methods, directory):
     panels = [panel for panel in chart["panels"] if panel["defined"] and any(error is not None for error in panel["errors"])]
     if not panels:
         return None
-    figure, axes = plt.subplots(1, len(panels), squeeze=False, figsize=(4.4 * len(panels) + 2.2, 4.2))
+    figure, axes = plt.subplots(1, len(panels), squeeze=False, figsize=(3.9 * len(panels) + 2.6, 4.4))
     for axis, panel in zip(axes[0], panels):
         draw_panel(axis, chart, panel, look(methods))
     handles, labels = axes[0][0].get_legend_handles_labels()
@@ -54,27 +63,35 @@ def draw(chart, methods, directory):
     return style.save(figure, directory, f"error-cost-{chart['case']}")
 
 
+def shown_at(panel, error):
+    """Where an error is drawn: what lies below a quarter of the reference's uncertainty means nothing, and stands there."""
+    return max(error, LOWEST, 0.25 * panel["floor"])
+
+
 def draw_panel(axis, chart, panel, looks):
     axis.set_xscale("log")
     axis.set_yscale("log")
-    drawn = [max(error, LOWEST) for error in panel["errors"] if error is not None]
+    drawn = [shown_at(panel, error) for error in panel["errors"] if error is not None]
     for name, how in looks.items():
-        shown = sorted((point["core_s_per_s"], max(error, LOWEST), point["cell"])
+        shown = sorted((point["core_s_per_s"], shown_at(panel, error), point["cell"])
                        for point, error in zip(chart["points"], panel["errors"])
                        if point["method"] == name and error is not None and point["core_s_per_s"] > 0)
         if not shown:
             continue
         axis.plot([x for x, _, _ in shown], [y for _, y, _ in shown], label=name, markersize=5, linewidth=1.3, **how)
-        for x, y, cell in shown:
-            axis.annotate(f"{1e3 * cell:.3g}", (x, y), textcoords="offset points", xytext=(4, 4), fontsize=6, color=how["color"])
+        if name == next(iter(looks)):  # the grids of one line: those of the others stand nearly above them
+            for x, y, cell in shown:
+                axis.annotate(f"{1e3 * cell:.3g} mm", (x, y), textcoords="offset points", xytext=(0, 8), ha="center", fontsize=6.5,
+                              color=how["color"], path_effects=[style.HALO])
     draw_front(axis, chart, panel)
     draw_failed(axis, chart, looks, 1.6 * max(drawn))
+    draw_others(axis, chart, panel)
     if panel["floor"] > 0:
         axis.axhspan(axis.get_ylim()[0] / 10, panel["floor"], color="0.85", zorder=0,
                      label="inside the reference's own uncertainty")
-        axis.set_ylim(bottom=0.5 * min(min(drawn), panel["floor"]))
+        axis.set_ylim(bottom=0.8 * min(min(drawn), panel["floor"]))
     if chart["dem_cost"]:
-        axis.axvline(chart["dem_cost"], color=style.DEM, linewidth=1.2, linestyle=":", label="cost of DEM-VOF")
+        axis.axvline(chart["dem_cost"], color=style.DEM, linewidth=1.2, linestyle=":", label="cost of DEM-VOF (demvof)")
     axis.set_title(f"{chart['case']}: {panel['quantity'].replace('_', ' ')} against {panel['against']}", loc="left", fontsize=9)
     axis.set_ylabel("relative error [-]")
     axis.set_xlabel("cost [core-s per simulated s]")
@@ -82,10 +99,23 @@ def draw_panel(axis, chart, panel, looks):
 
 
 def draw_front(axis, chart, panel):
-    front = [(chart["points"][i]["core_s_per_s"], max(panel["errors"][i], LOWEST)) for i in panel["pareto"]]
+    front = [(chart["points"][i]["core_s_per_s"], shown_at(panel, panel["errors"][i])) for i in panel["pareto"]]
     if front:
         axis.plot([x for x, _ in front], [y for _, y in front], color=style.BLACK, linewidth=0.8, linestyle="-", alpha=0.5,
-                  marker="o", markersize=11, markerfacecolor="none", markeredgewidth=0.8, label="Pareto front (labels: cell [mm])")
+                  marker="o", markersize=11, markerfacecolor="none", markeredgewidth=0.8, label="Pareto front")
+
+
+OTHER_MARKERS = ["*", "X", "h", "d", "8"]
+
+
+def draw_others(axis, chart, panel):
+    """What other programs made of the case, and the reference at other resolutions: one point each."""
+    for i, (other, error) in enumerate(zip(chart.get("others", []), panel.get("other_errors", []))):
+        if error is None:
+            continue
+        axis.plot([other["core_s_per_s"]], [shown_at(panel, error)], linestyle="none", marker=OTHER_MARKERS[i % len(OTHER_MARKERS)],
+                  markersize=9, markerfacecolor="white", markeredgecolor=style.BLACK, markeredgewidth=1.1,
+                  label=other["name"] + (f" ({other['about']})" if other["about"] else ""))
 
 
 def draw_failed(axis, chart, looks, height):
@@ -133,7 +163,7 @@ def draw_all(content, directory):
 
 def caption(name):
     return (f"{name.removeprefix('error-cost-')}: error against cost; points are grids, circles the Pareto front; grey: inside the "
-            "reference's own uncertainty.")
+            "reference's own uncertainty (what lies below a quarter of it is drawn there).")
 
 
 def ablation_table(study):
@@ -152,24 +182,34 @@ def ablation_table(study):
             "columns": ["part"] + [metric["metric"] for metric in study["metrics"]] + ["core-s"], "rows": rows}
 
 
-def section(content, names, ablated):
+def advice_table(study):
+    """The evidence of an advice: every configuration that was tried, in order."""
+    rows = [[step["configuration"], "-" if step["error"] is None else f"{100 * step['error']:.2g} %", step["core_s_per_s"],
+             step["remark"]] for step in study["steps"]]
+    return {"caption": f"advice for {study['scene']} ({study['version']}): " + "; ".join(study["summary"]),
+            "columns": ["configuration", "error", "core-s per s", "remark"], "rows": rows}
+
+
+def section(content, names, ablated, advised=()):
     """charts.json, as sections.py reads it."""
     text = ["Errors are relative; lower left is better. Methods: " +
             "; ".join(method["name"] + (f" ({method['about']})" if method["about"] else "") for method in content["methods"]) + "."]
     for chart in content["charts"]:
         text += chart["lines"]
         if chart["left_out"]:
-            text.append(f"{chart['case']}, left out for their cost: {', '.join(chart['left_out'])}.")
+            text.append(f"{chart['case']}, left out: {'; '.join(chart['left_out'])}.")
     versions = sorted({point["version"] for chart in content["charts"] for point in chart["points"] if point["version"]})
     return {"title": "Accuracy against cost", "text": text, "commit": ", ".join(versions), "date": content["date"],
             "figures": [{"file": f"{name}.png", "caption": caption(name)} for name in names],
-            "tables": [ablation_table(study) for study in ablated]}
+            "tables": [advice_table(study) for study in advised] + [ablation_table(study) for study in ablated]}
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--charts", type=Path, required=True, help="directory with points.json")
     parser.add_argument("--ablations", type=Path, help="directory of the ablations (default: ablate beside it)")
+    parser.add_argument("--advice", type=Path, help="directory of the advice (default: advise beside it)")
+    parser.add_argument("--keep", type=Path, help="copy what was drawn from to this directory")
     parser.add_argument("--picture", type=Path, help="write the picture of one scene here too (PNG, few bytes)")
     parser.add_argument("--scene", default="s1", help="the scene of --picture (s1)")
     options = parser.parse_args(arguments)
@@ -177,9 +217,10 @@ def main(arguments):
     if content is None:
         print(f"charts: no points.json in {options.charts}; run `make charts` first", file=sys.stderr)
         return 2
-    names = draw_all(content, options.charts)
-    ablated = ablations(options.ablations or options.charts.resolve().parent / "ablate")
-    (options.charts / "charts.json").write_text(json.dumps(section(content, names, ablated), indent=1) + "\n")
+    beside = options.charts.resolve().parent
+    names = make_section(options.charts, content, options.ablations or beside / "ablate", options.advice or beside / "advise")
+    if options.keep:
+        keep(options, beside)
     for name in names:
         print(options.charts / f"{name}.png")
     if options.picture:
@@ -189,6 +230,44 @@ def main(arguments):
             return 2
         shrink(options.charts / f"{name}.png", options.picture)
     return 0
+
+
+def make_section(directory, content, ablated, advised):
+    """Pictures and charts.json into `directory`; names of the pictures."""
+    names = draw_all(content, directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    shown = section(content, names, ablations(ablated), advices(advised))
+    (directory / "charts.json").write_text(json.dumps(shown, indent=1) + "\n")
+    return names
+
+
+def from_kept(kept, directory):
+    """Draws the charts of an earlier version that `kept` holds, and says so in their section; False if it holds none."""
+    content = load(kept / "charts")
+    if content is None:
+        return False
+    make_section(directory, content, kept / "ablate", kept / "advise")
+    path = directory / "charts.json"
+    shown = json.loads(path.read_text())
+    shown["title"] += " (kept results)"
+    shown["text"].insert(0, f"Not run here: results of {shown['commit']} of {shown['date'][:10]}, kept in the repository. "
+                            "`make charts` runs them anew.")
+    path.write_text(json.dumps(shown, indent=1) + "\n")
+    return True
+
+
+def keep(options, beside):
+    for source, target in [(options.charts, "charts"), (options.ablations or beside / "ablate", "ablate"),
+                           (options.advice or beside / "advise", "advise")]:
+        for path in sorted(source.glob("**/*.json")):
+            if path.name != "charts.json":
+                copy = options.keep / target / path.relative_to(source)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                copy.write_text(json.dumps(json.loads(path.read_text()), separators=(",", ":")) + "\n")
+    stability = beside / "stability/stability.json"
+    if stability.exists():
+        (options.keep / "stability").mkdir(parents=True, exist_ok=True)
+        (options.keep / "stability/stability.json").write_text(json.dumps(json.loads(stability.read_text()), separators=(",", ":")) + "\n")
 
 
 def shrink(source, target):

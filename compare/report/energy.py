@@ -49,4 +49,5 @@ def energy_plot(results, run, directory):
 
 def caption(run):
     return (f"{run}: energy budget. Left: changes of what is stored. Right: losses since the start, stacked, with the terms of "
-            "either sign as lines; “not accounted for” is the residual of the solvers.")
+            "either sign as lines; “not accounted for” is the residual of the solvers. Volume "
+            "transport makes energy in stable layers (upwind fluxes spread grains upwards), in proportion to the cell size.")

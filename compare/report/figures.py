@@ -41,12 +41,12 @@ def caption(name):
     return CAPTIONS[name]
 
 
-def draw_all(results, directory):
-    """All plots that the results allow, as names in the order of the page."""
+def draw_all(results, directory, kept=None):
+    """All plots that the results allow, as names in the order of the page; `kept` holds results of earlier studies."""
     names = []
     for plot in PLOTS:
         names += plot(results, directory)
-    names += stability.map_plot(stability.load(results.directory), directory)
+    names += stability.map_plot(stability.load(results.directory, kept), directory)
     for run in results.curves:
         names += energy.energy_plot(results, run, directory)
     for run in results.curves:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from report import figures, page, results, sections  # noqa: E402
+from report import charts, figures, page, results, sections  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -16,14 +16,21 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--verify", type=Path, required=True, help="directory with results.json and curves.json")
     parser.add_argument("--cases", type=Path, default=ROOT / "cases", help="case files, with published/")
+    parser.add_argument("--kept", type=Path, default=ROOT / "compare/kept", help="results of earlier studies, for what was not run")
     options = parser.parse_args(arguments)
     loaded = results.load(options.verify, options.cases)
+    out = options.verify.resolve().parent
+    directories = {"charts": out / "charts"}
+    if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts"):
+        directories["charts"] = options.verify / "kept/charts"
+    if not (out / "stability/stability.json").exists():
+        directories["stability"] = options.kept / "stability"
     try:
-        others = sections.read_all(options.verify.resolve().parent)
+        others = sections.read_all(out, directories)
     except ValueError as error:
         print(f"report: {error}", file=sys.stderr)
         return 2
-    plots = figures.draw_all(loaded, options.verify / "plots")
+    plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     (options.verify / "report.html").write_text(page.render(loaded, plots, others), encoding="utf-8")
     return 0
 

@@ -27,10 +27,11 @@ class Section:
     made: str = ""
 
 
-def read_all(out):
-    """The sections that are there, below the directory that also holds verify/. Raises ValueError with the file's name
-    where one is damaged."""
-    return [read(out / name) for name in NAMES if (out / name / f"{name}.json").exists()]
+def read_all(out, directories=None):
+    """The sections that are there, below the directory that also holds verify/ or where `directories` has them. Raises
+    ValueError with the file's name where one is damaged."""
+    places = {name: out / name for name in NAMES} | (directories or {})
+    return [read(places[name]) for name in NAMES if (places[name] / f"{name}.json").exists()]
 
 
 def read(directory):

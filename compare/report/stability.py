@@ -12,10 +12,10 @@ KINDS = {"step collapse": (style.ORANGE, "//"), "blow-up": (style.RED, "xx"),
          "wrong answer, detected": (style.PURPLE, ".."), "wrong answer, undetected": (style.BLACK, "++")}
 
 
-def load(verify):
-    """What compare/stability wrote beside the directory of results, or None."""
-    path = verify.parent / "stability/stability.json"
-    return json.loads(path.read_text()) if path.exists() else None
+def load(verify, kept=None):
+    """What compare/stability wrote beside the directory of results, else what `kept` holds of an earlier version, or None."""
+    paths = [directory / "stability/stability.json" for directory in (verify.parent, kept) if directory]
+    return next((json.loads(path.read_text()) for path in paths if path.exists()), None)
 
 
 def place(entry, value):
@@ -67,6 +67,8 @@ def map_plot(found, directory):
                 for kind, (colour, hatch) in KINDS.items() if kind in shown]
     axis.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.4, -0.02), ncol=3, fontsize=7)
     axis.set_title("upper to lower bar: " + ", ".join(methods) + "; tick: nominal value", loc="left", fontsize=8)
+    if found.get("commit"):
+        figure.supxlabel(f"{found['commit']}, {found['date'][:10]}", fontsize=5.5, color="0.45")
     axis.set_xlim(0, 1)
     axis.set_ylim(-len(names) + 0.5, 0.5)
     axis.set_axis_off()

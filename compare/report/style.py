@@ -6,13 +6,15 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib import patheffects  # noqa: E402
 
 # Okabe & Ito's palette: told apart with any common colour vision, and in grey by their order.
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW, BLACK = (
     "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#000000")
 CYCLE = [BLUE, ORANGE, GREEN, PURPLE, SKY, RED]
-MARKERS = ["o", "s", "^", "D", "v", "P"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "<", "p", ">"]
 LINES = ["-", "--", "-.", ":"]
+HALO = patheffects.withStroke(linewidth=2.0, foreground="white")
 THEORY = {"color": BLACK, "linestyle": "--", "linewidth": 1.0}
 DEM = RED
 PEER = PURPLE

@@ -15,6 +15,8 @@
 namespace granvof::compare {
 namespace {
 
+constexpr double longest_gate = 0.1;  // in times sqrt(h0 / g), that a gate may stand under a lid
+
 std::vector<std::string> rigid_lid(const Scene& scene) {
   double level = 0.0;
   for (const Box& box : scene.liquid_boxes) {
@@ -25,6 +27,17 @@ std::vector<std::string> rigid_lid(const Scene& scene) {
   if (level <= 0.0) throw std::invalid_argument("the scene has no liquid");
   if (scene.bed && scene.bed->box.upper[1] > level * (1.0 + 1e-9))
     throw std::invalid_argument("the bed reaches above the liquid");
+  // Under a lid a gate shuts the column's side but for the gap below its edge: what runs out must be replaced
+  // through the same gap. s1 at 2.5 mm, T = 2 / 5: -0.16 / -0.22 of run-out with its gate, -0.04 / -0.06 with
+  // one of 20 m/s.
+  if (scene.gate) {
+    const double height = scene.bed ? scene.bed->box.upper[1] - scene.bed->box.lower[1] : level;
+    const double stands = level / scene.gate->speed / std::sqrt(height / scene.gravity);
+    if (stands > longest_gate)
+      throw std::invalid_argument(
+          fmt::format("under a lid the gate shuts the column's side, for T = {:.2g}; at most {:g}", stands,
+                      longest_gate));
+  }
   const double rows = level / scene.grid.spacing[1];
   if (std::abs(rows - std::round(rows)) > 1e-6)
     throw std::invalid_argument(

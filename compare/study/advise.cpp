@@ -95,9 +95,10 @@ class Walk {
       const auto moved = bench_.distance(without, full);
       if (!step.trial.error || !moved) continue;
       const double saved = 1.0 - step.trial.cost / with_all.cost;
-      const bool may_go = *moved <= share_of_a_part * tolerance_ && saved >= least_saving;
-      step.remark = fmt::format("moves the result by {:.2g} %, saves {:.0f} %: {}", 100.0 * *moved,
-                                100.0 * saved, may_go ? "may go" : "stays");
+      const double noise = std::max(step.trial.noise, with_all.noise);
+      const bool may_go = *moved <= share_of_a_part * tolerance_ && saved >= std::max(least_saving, noise);
+      step.remark = fmt::format("moves the result by {:.2g} %, saves {:.0f} % (noise {:.0f} %): {}",
+                                100.0 * *moved, 100.0 * saved, 100.0 * noise, may_go ? "may go" : "stays");
       if (!may_go) continue;
       std::set<std::string> keys;
       for (const std::string& assignment : *overrides)

@@ -19,6 +19,7 @@ struct Trial {
   std::optional<double> error;  // relative, against the reference [-]; nothing: `failure` says why
   double cost = 0.0;            // [core-s per simulated s]
   std::string failure;
+  double noise = 0.0;  // relative uncertainty of the cost [-]
 };
 
 // Where configurations are tried.
@@ -50,9 +51,9 @@ struct Advice {
 // than that; what met it by accident on a coarse grid fails this, and the walk goes on. Of what is confirmed
 // on a grid the cheapest is taken. Then parts of the model go: each is tried alone on the next coarser cells
 // (the same, if there are none), the cheapest without it first; it may go where it moves the result by at
-// most a quarter of the tolerance and saves at least 5 % of the cost. Those go together on the chosen grid,
-// and the one that moved most stays until the rest meets the tolerance and is confirmed. The smallest cells
-// serve to confirm only.
+// most a quarter of the tolerance and saves at least 5 % of the cost, and more than its noise. Those go
+// together on the chosen grid, and the one that moved most stays until the rest meets the tolerance and is
+// confirmed. The smallest cells serve to confirm only.
 Advice advise(const std::vector<double>& cells, const std::vector<Method>& methods,
               const std::vector<Part>& parts, double tolerance, Bench& bench);
 

@@ -34,7 +34,7 @@ class SceneBench : public Bench {
 
   Trial trial(const Configuration& configuration) override {
     const Outcome made = outcome(configuration);
-    Trial trial{std::nullopt, made.cost(), made.failure};
+    Trial trial{std::nullopt, made.cost(), made.failure, made.noise};
     if (!made.run) return trial;
     const Observed observed = observe(input_.quantity, *made.run);
     trial.error = relative_distance(input_.quantity, observed, target_->observed);

@@ -46,7 +46,7 @@ struct ChartResult {
   Chart chart;
   std::vector<ChartPoint> points;
   std::vector<OtherPoint> others;     // of the study's, those that there is a record of
-  std::vector<std::string> left_out;  // "second order on 0.625 mm"
+  std::vector<std::string> left_out;  // "second order on 0.625 mm (too dear)"
   std::vector<PanelResult> panels;
   std::optional<double> dem_cost;  // [core-s per simulated s], from the records of the case
 };

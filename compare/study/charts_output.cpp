@@ -67,7 +67,7 @@ std::string charts_text(const std::vector<ChartResult>& results) {
     }
     for (const std::string& line : recommendations(result)) text += line + "\n";
     if (!result.left_out.empty())
-      text += fmt::format("left out for their cost: {}\n", fmt::join(result.left_out, ", "));
+      text += fmt::format("left out: {}\n", fmt::join(result.left_out, ", "));
   }
   return text + "* Pareto front\n";
 }

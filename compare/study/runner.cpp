@@ -46,6 +46,13 @@ std::string last_line(const fs::path& log) {
   return text.empty() ? "no message" : text.substr(begin == std::string::npos ? 0 : begin + 1);
 }
 
+// Largest over smallest, less 1 [-].
+double spread(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *low > 0.0 ? *high / *low - 1.0 : 0.0;
+}
+
 std::optional<nlohmann::json> read_note(const fs::path& directory) {
   if (!fs::exists(directory / note_file)) return std::nullopt;
   auto note = nlohmann::json::parse(read_file(directory / note_file), nullptr, false);
@@ -66,6 +73,7 @@ Outcome outcome_of(const fs::path& directory, const nlohmann::json& note, const 
   outcome.repeats = static_cast<int>(costs.size());
   if (!costs.empty()) outcome.core_seconds = *std::min_element(costs.begin(), costs.end());
   outcome.work_unit_seconds = note.value("work_unit_seconds", 0.0);
+  outcome.noise = std::max(spread(costs), note.value("work_unit_spread", 0.0));
   if (outcome.facts) outcome.simulated_seconds = outcome.facts->number("simulated_time").value_or(0.0);
   return outcome;
 }
@@ -88,7 +96,9 @@ CachedRunner::CachedRunner(RunnerOptions options) : options_(std::move(options))
 
 std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene,
                                           const fs::path& directory) const {
-  if (const auto note = read_note(directory)) return outcome_of(directory, *note, scene);
+  const auto note = read_note(directory);
+  if (note && note->value("ended_after", options_.timeout) < options_.timeout) return std::nullopt;
+  if (note) return outcome_of(directory, *note, scene);
   if (!options_.any_version) return std::nullopt;
   std::vector<std::pair<fs::file_time_type, fs::path>> earlier;
   std::error_code missing;
@@ -127,6 +137,7 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
     units.push_back(work_unit_seconds());
     const Ended ended = run_program(command, log, options_.timeout);
     units.push_back(work_unit_seconds());
+    if (ended.timed_out) note["ended_after"] = options_.timeout;
     if (ended.timed_out)
       failure = fmt::format("ended after {:g} s of wall-clock time", options_.timeout);
     else if (ended.code == bad_input)  // nothing was run, and the case is not what is wrong
@@ -143,6 +154,7 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
   note["failure"] = failure;
   note["core_seconds"] = costs;
   note["work_unit_seconds"] = sum / static_cast<double>(units.size());
+  note["work_unit_spread"] = spread(units);
   fs::create_directories(directory);        // a run that was ended at once has not made it
   fs::remove(directory / "checkpoint.h5");  // nothing goes on from here
   write_file_atomically(directory / note_file, note.dump(1) + "\n");

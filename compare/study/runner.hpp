@@ -26,6 +26,8 @@ struct Outcome {
   double simulated_seconds = 0.0;  // how far it came
   double work_unit_seconds = 0.0;  // of the calibration kernel, timed before and after (mean)
   int repeats = 0;
+  double noise =
+      0.0;  // relative uncertainty of the cost: spread of the repeats, and of the kernel's timings [-]
   bool kept = false;  // taken from the cache
 
   // [core-s per simulated s]; 0 where nothing was simulated.
@@ -51,8 +53,8 @@ struct RunnerOptions {
 };
 
 // A job is identified by its resolved case and the version of the program (and, of a version with uncommitted
-// changes, by the program file's time); a run that ended, well or not, is not made again. Throws
-// std::runtime_error where the program cannot be started.
+// changes, by the program file's time); a run that ended, well or not, is not made again, but for one that
+// was ended by a shorter time limit than now. Throws std::runtime_error where the program cannot be started.
 class CachedRunner : public Runner {
  public:
   explicit CachedRunner(RunnerOptions options);

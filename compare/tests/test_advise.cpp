@@ -27,12 +27,13 @@ class FakeBench : public Bench {
     return cost;
   };
   int trials = 0;
+  double noise = 0.0;
 
   Trial trial(const Configuration& c) override {
     ++trials;
     const auto value = result(c);
-    return value ? Trial{std::abs(*value - 1.0), price(c), ""}
-                 : Trial{std::nullopt, price(c), "step collapse"};
+    return value ? Trial{std::abs(*value - 1.0), price(c), "", noise}
+                 : Trial{std::nullopt, price(c), "step collapse", noise};
   }
   std::optional<double> distance(const Configuration& a, const Configuration& b) override {
     const auto first = result(a);
@@ -116,6 +117,14 @@ TEST(Advise, LeavesOutPartsThatMoveNothing) {
   ASSERT_TRUE(advice.chosen);
   EXPECT_EQ(name_of(advice.chosen->configuration), "plain on 2.5 mm, algebraic, no LES");
   EXPECT_EQ(name_of(advice.confirmation->configuration), "plain on 1.25 mm, algebraic, no LES");
+}
+
+TEST(Advise, ASavingWithinTheNoiseOfTheCostIsNone) {
+  FakeBench bench;
+  bench.result = first_order;
+  bench.noise = 0.25;  // no LES saves 20 %, off saves 50 %
+  const Advice advice = advise(cells, {plain}, {no_les, off}, 0.06, bench);
+  EXPECT_EQ(name_of(advice.chosen->configuration), "plain on 2.5 mm, off");
 }
 
 TEST(Advise, OfTwoChoicesOfOneKeyTheCheaperGoes) {

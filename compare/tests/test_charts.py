@@ -15,7 +15,7 @@ def point(method, cell, cost, failure=""):
 
 
 def study(**changed):
-    chart = {"case": "s1", "left_out": ["second on 0.625 mm"], "dem_cost": 2000.0, "lines": ["s1: for 10 % use <first>"],
+    chart = {"case": "s1", "left_out": ["second on 0.625 mm (too dear)"], "dem_cost": 2000.0, "lines": ["s1: for 10 % use <first>"],
              "points": [point("first", 0.005, 1.0), point("first", 0.0025, 8.0), point("second", 0.005, 2.0, "step collapse"),
                         point("second", 0.0025, 12.0)],
              "panels": [{"quantity": "run_out", "curve": True, "against": "own finest grid", "source": "first on 1.25 mm",
@@ -40,11 +40,42 @@ def test_a_chart_has_a_panel_for_each_reference_there_is(drawn):
     assert axes[0].get_xscale() == axes[0].get_yscale() == "log"
     lines = {line.get_label(): line for line in axes[0].get_lines()}
     assert list(lines["first"].get_xdata()) == [1.0, 8.0]
-    assert list(lines["second"].get_ydata()) == [charts.LOWEST]  # an error of 0 is drawn at the lower edge
+    assert list(lines["second"].get_ydata()) == [0.25 * 0.02]  # an error of 0 is drawn within the reference's uncertainty
     assert "failed" in lines and lines["failed"].get_ydata()[0] > 0.2
-    assert lines["cost of DEM-VOF"].get_xdata()[0] == 2000.0
+    assert lines["cost of DEM-VOF (demvof)"].get_xdata()[0] == 2000.0
     front = next(line for label, line in lines.items() if label.startswith("Pareto"))
     assert len(front.get_xdata()) == 3
+
+
+def test_other_programs_are_points_where_they_can_be_judged(drawn):
+    content = study(others=[{"name": "parcels", "source": "peers/parcels", "about": "25 grains", "core_s_per_s": 40.0},
+                            {"name": "demvof", "source": "", "about": "", "core_s_per_s": 2000.0}])
+    content["charts"][0]["panels"][0]["other_errors"] = [0.3, None]
+    charts.draw_all(content, None)
+    lines = {line.get_label(): line for line in drawn[0].axes[0].get_lines()}
+    assert (lines["parcels (25 grains)"].get_xdata()[0], lines["parcels (25 grains)"].get_ydata()[0]) == (40.0, 0.3)
+    assert "demvof" not in lines
+
+
+def test_what_was_not_run_is_shown_from_what_is_kept(tmp_path):
+    write = lambda path, content: (path.parent.mkdir(parents=True, exist_ok=True), path.write_text(json.dumps(content)))
+    write(tmp_path / "out/charts/points.json", study())
+    write(tmp_path / "out/advise/s1.json", {
+        "scene": "s1", "version": "0.1.0 (abc)", "summary": ["s1: run_out to 5 %", "cheapest: first on 5 mm"],
+        "steps": [{"configuration": "first on 5 mm", "error": 0.031, "core_s_per_s": 1.0, "remark": "within the tolerance"},
+                  {"configuration": "second on 5 mm", "error": None, "core_s_per_s": 0.0, "remark": "step collapse"}]})
+    write(tmp_path / "out/stability/stability.json", {"axes": [], "points": []})
+    kept = tmp_path / "kept"
+    assert charts.main(["--charts", str(tmp_path / "out/charts"), "--keep", str(kept)]) == 0
+    assert {str(path.relative_to(kept)) for path in kept.glob("**/*.json")} == {
+        "charts/points.json", "advise/s1.json", "stability/stability.json"}
+    assert charts.from_kept(kept, tmp_path / "clone/charts")
+    (shown,) = sections.read_all(tmp_path / "clone")
+    assert shown.title.endswith("(kept results)")
+    assert "0.1.0 (abc)" in shown.text[0] and "2026-01-02" in shown.text[0]
+    assert shown.tables[0]["rows"][0] == ["first on 5 mm", "3.1 %", 1.0, "within the tolerance"]
+    assert shown.tables[0]["rows"][1][1] == "-"
+    assert not charts.from_kept(tmp_path / "nothing", tmp_path / "clone/charts")
 
 
 def test_a_chart_without_a_reference_is_not_drawn(drawn):
@@ -78,5 +109,5 @@ def test_the_report_shows_charts_and_ablations(tmp_path):
     (shown,) = sections.read_all(tmp_path)
     assert [figure["name"] for figure in shown.figures] == ["charts-error-cost-s1"]
     assert "s1: for 10 % use <first>" in shown.text
-    assert any("left out for their cost: second on 0.625 mm" in text for text in shown.text)
+    assert any("left out: second on 0.625 mm" in text for text in shown.text)
     assert shown.tables[0]["rows"] == [["full model", "2.2", 2.0], ["no LES", "+0.3 *", 2.0], ["Theta off", "failed", 2.0]]

@@ -1,13 +1,18 @@
 """The stability map: reading its table, the search for a border, the verdict on a run, the figure."""
 
+import importlib.machinery
+import importlib.util
 import json
 from pathlib import Path
 
 import pytest
 from border import judge, search, table
-from report import stability
+from report import sections, stability
 
 ROOT = Path(__file__).resolve().parents[2]
+_loader = importlib.machinery.SourceFileLoader("stability_program", str(ROOT / "compare/stability"))
+program = importlib.util.module_from_spec(importlib.util.spec_from_loader("stability_program", _loader))
+_loader.exec_module(program)
 AXIS = table.Axis("a", table.SceneEntry("s", Path("s.toml"), {}), "-", 1.0, ["k={}"], low=0.01, high=100.0)
 
 
@@ -81,8 +86,10 @@ sets = dict(arguments[i + 1].split("=", 1) for i, a in enumerate(arguments) if a
 out.mkdir(parents=True)
 cfl = float(sets.get("numerics.cfl", 0.4))
 error = float(sets.get("k", 0)) * cfl
+while "forever" in sets:
+    pass
 (out / "series.csv").write_text(f"time [s],y_solid_mean [m]\\n0,1\\n1,{1 + error}\\n")
-(out / "run.json").write_text(json.dumps({"steps": 1, "core_seconds": 0.0, "warnings": [],
+(out / "run.json").write_text(json.dumps({"steps": 1, "core_seconds": 0.0, "warnings": json.loads(sets.get("warnings", "[]")),
     "exit": {"state": "finished", "reason": ""}, "resolved_case": f"[numerics]\\ncfl = {cfl}\\ndt_max = 1\\n"}))
 """
 
@@ -100,6 +107,25 @@ def test_a_wrong_answer_without_a_warning_is_found_at_half_the_step(tmp_path):
     assert runner.runs == 4
 
 
+def test_what_depends_on_the_step_and_is_warned_of_is_detected(tmp_path):
+    solver = tmp_path / "granvof"
+    solver.write_text(FAKE)
+    solver.chmod(0o755)
+    runner = judge.Runner(solver, tmp_path, 20)
+    scene = table.SceneEntry("s", tmp_path / "s.toml", {"y_solid_mean": 0.01})
+    warned = ['warnings=[{"monitor": "elastic start", "value": 2, "limit": 1}]']
+    assert runner.judge(scene, ["k=0.01"] + warned, "same", ["elastic start"]).holds
+    assert runner.judge(scene, ["k=1"] + warned, "moved", ["elastic start"]).kind == judge.DETECTED
+
+
+def test_a_run_beyond_its_core_seconds_counts_as_failed(tmp_path):
+    solver = tmp_path / "granvof"
+    solver.write_text(FAKE)
+    solver.chmod(0o755)
+    found = judge.Runner(solver, tmp_path, 1).judge(table.SceneEntry("s", tmp_path / "s.toml", {}), ["forever=1"], "endless")
+    assert found.kind == judge.COLLAPSE
+
+
 @pytest.mark.parametrize("text, said", [
     ("[[axis]]\nname = 'a'\nscene = 'x'\nnominal = 1\nassign = []\nhigh = 2", "scene x given"),
     ("[scene.s]\ncase = 'nowhere.toml'\ncompare = {}", "there is no"),
@@ -112,6 +138,21 @@ def test_a_bad_table_is_refused(tmp_path, text, said):
     path.write_text(text)
     with pytest.raises(table.TableError, match=said):
         table.read(path)
+
+
+def test_a_map_is_a_section_of_the_report(tmp_path):
+    border = {"end": 0.629, "holds": 0.6, "fails": 0.61, "kind": judge.DETECTED, "why": "elastic start", "tried": []}
+    axis = {"axis": "packing", "method": "limited", "unit": "-", "scale": "linear", "nominal": 0.57, "note": "",
+            "borders": [border, border | {"end": 0.5, "holds": 0.5, "fails": None, "kind": None, "why": ""}]}
+    result = {"date": "2026-01-02T00:00:00+00:00", "commit": "0.1.0 (abc)", "runs": 3, "core_seconds": 2.0, "axes": [axis],
+              "points": [{"point": "no gas", "method": "limited", "kind": judge.HOLDS, "why": ""}]}
+    (tmp_path / "stability").mkdir()
+    (tmp_path / "stability/stability.json").write_text(json.dumps(result | program.section(result)))
+    (shown,) = sections.read_all(tmp_path)
+    rows = shown.tables[0]["rows"]
+    assert rows[0][3] == "0.6" and "elastic start" in rows[0][4]
+    assert rows[1][4] == "-" and rows[2][3] == "holds"
+    assert "abc" in shown.made
 
 
 def test_the_map_is_drawn(tmp_path):

@@ -14,6 +14,13 @@ name = "first"
 [[method]]
 name = "second"
 set = ["numerics.solid_flux=limited"]
+[[method]]
+name = "third"
+other_model = true
+[[other]]
+name = "parcels"
+records = "peers/parcels"
+set = ["reference.cell=0.002"]
 [[part]]
 name = "no LES"
 set = ["model.les=false"]
@@ -22,6 +29,7 @@ name = "lid"
 form = "rigid lid"
 [[chart]]
 case = "s1"
+methods = ["third", "second"]
 grids = [0.005, 0.0025, 0.00125]
 down_to = 0.0025
 [[chart.panel]]
@@ -44,7 +52,15 @@ std::string replaced(const std::string& line, const std::string& by) {
 
 TEST(StudyFile, ReadsMethodsPartsAndCharts) {
   const Study study = parse_study(good, "study.toml");
-  ASSERT_EQ(study.methods.size(), 2u);
+  ASSERT_EQ(study.methods.size(), 3u);
+  EXPECT_FALSE(study.methods[1].other_model);
+  EXPECT_TRUE(study.methods[2].other_model);
+  ASSERT_EQ(study.others.size(), 1u);
+  EXPECT_EQ(study.others[0].records, "peers/parcels");
+  EXPECT_EQ(methods_of(study, nullptr).size(), 3u);
+  const auto shown = methods_of(study, &study.charts.at(0));
+  ASSERT_EQ(shown.size(), 2u);
+  EXPECT_EQ(shown[0].name, "second");  // in the order of the study, the same in all charts
   EXPECT_TRUE(study.methods[0].set.empty());
   EXPECT_EQ(study.methods[1].set, std::vector<std::string>{"numerics.solid_flux=limited"});
   ASSERT_EQ(study.parts.size(), 2u);
@@ -92,7 +108,11 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"against = \"DEM\"", "against = \"dem\"", "allowed: finest, DEM, theory, published"},
         Wrong{"against = \"DEM\"", "against = \"DEM\"\nformula = \"x\"", "only against = \"theory\""},
         Wrong{"against = \"DEM\"", "against = \"theory\"\nformula = \"x\"", "'x' given"},
-        Wrong{"method = \"second\"", "method = \"third\"", "no [[method]] has the name 'third'"},
+        Wrong{"method = \"second\"", "method = \"fourth\"", "no [[method]] has the name 'fourth'"},
+        Wrong{"name = \"parcels\"", "name = \"third\"", "'third' is given twice"},
+        Wrong{"methods = [\"third\", \"second\"]", "methods = [\"zeroth\"]",
+              "no [[method]] has the name 'zeroth'"},
+        Wrong{"method = \"second\"", "method = \"first\"", "'first' is not among the methods of the chart"},
         Wrong{"quantity = \"run_out@5\"", "quantity = \"run_out@five\"", "expected NAME or NAME@NUMBER"},
         Wrong{"quantity = \"run_out@5\"", "quantity = \"reach\"", "'reach' given; allowed: run_out"},
         Wrong{"set = [\"numerics.solid_flux=limited\"]", "grids = 1.5", "allowed: 1, 2"},

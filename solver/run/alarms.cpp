@@ -17,8 +17,11 @@ constexpr double largest_energy_residual = 0.01;  // of the energy turned over
 // float-full-r02. Where half of what is dissipated was never there the flow is numerics.
 constexpr double largest_energy_created = 0.5;
 constexpr double largest_share_of_bounds = 0.01;  // the same, taken by the bounds on Theta
-constexpr double unconverged_share = 0.01;        // of the friction solves
-constexpr double energy_that_stops = 10.0;        // in motion, of all that the run was given
+// Contacts that store more than the height of all that is there: such a bed is not at rest but springs apart,
+// by an amount that the stiffness and the first few steps decide.
+constexpr double largest_elastic_start = 1.0;  // of the potential energy above the floor
+constexpr double unconverged_share = 0.01;     // of the friction solves
+constexpr double energy_that_stops = 10.0;     // in motion, of all that the run was given
 
 }  // namespace
 
@@ -58,6 +61,11 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
        "momentum or continuity is not solved well enough: the energy budget does not close");
   look("energy created", (e.dilatancy - std::min(e.numerical(), 0.0)) / turnover, largest_energy_created,
        "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
+  look("elastic start", start_.elastic / (start_.potential + least_turnover * start_.stored()),
+       largest_elastic_start,
+       "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
+       "how far depends "
+       "on contact.stiffness and on the first steps");
   look("granular bounds", e.theta_bounds / turnover, largest_share_of_bounds,
        "Theta runs into its stated bounds");
   look("friction solves", static_cast<double>(counts.unconverged_friction),

@@ -66,8 +66,7 @@ TEST_F(RunAlarms, SoftContactIsSeenInThePacking) {
                      "solid fraction"));
 }
 
-// Grains that appear between two steps: a hundredth of all, and, as much as is taken from elsewhere, less
-// than nothing in one empty cell (the next step may fill it: what was seen once stays in the record).
+// Grains that appear between two steps: a hundredth of all of them; and less than nothing in the empty cells.
 TEST_F(RunAlarms, GrainsFromNothingAreSeenInTheSolidVolume) {
   resume_with([](std::vector<double>& f_s) {
     for (double& value : f_s) value *= 1.01;
@@ -79,9 +78,14 @@ TEST_F(RunAlarms, GrainsFromNothingAreSeenInTheSolidVolume) {
 TEST_F(RunAlarms, LessThanNothingIsSeen) {
   resume_with([](std::vector<double>& f_s) {
     for (double& value : f_s)
-      if (value == 0.0) value = -1e-3;
+      if (value == 0.0) value = -1e-7;
   });
   EXPECT_TRUE(warned(resumed_, "negative fraction")) << resumed_["warnings"];
+}
+
+// At 0.61 the contacts of this bed hold several times the potential energy of the tank; at 0.57 nothing.
+TEST_F(RunAlarms, ADenseStartIsSeen) {
+  EXPECT_TRUE(warned(record_of({"bed.solid_fraction=0.61", "time.end=0.02"}), "elastic start"));
 }
 
 // Velocities that nothing has given, as after a blow-up that stays finite: the run stops and says why.
@@ -125,6 +129,9 @@ class AlarmRules : public ::testing::Test {
     alarms.check(changed, monitors, {100, 0});
     return alarms.raised();
   }
+  const Scene& scene() const { return scene_; }
+  const Grid& grid() const { return grid_; }
+  const State& at_rest() const { return state_; }
   EnergyTerms start() const {
     EnergyTerms e;
     e.potential = 10.0;
@@ -168,6 +175,19 @@ TEST_F(AlarmRules, EachLimitRaisesItsOwnAlarm) {
   EXPECT_TRUE(raised(moving(), 1).empty());
   ASSERT_EQ(raised(moving(), 2).size(), 1U);
   EXPECT_EQ(raised(moving(), 2)[0].monitor, "friction solves");
+}
+
+TEST_F(AlarmRules, AStartThatSpringsApartIsSaid) {
+  for (const double share : {0.99, 1.01}) {
+    EnergyTerms tight = start();
+    tight.elastic = share * tight.potential;
+    Alarms alarms(scene(), tight);
+    alarms.check(at_rest(), Monitors(grid(), scene(), at_rest()), {1, 0});
+    ASSERT_EQ(alarms.raised().size(), share > 1.0 ? 1U : 0U) << share;
+    if (share > 1.0) {
+      EXPECT_EQ(alarms.raised()[0].monitor, std::string("elastic start"));
+    }
+  }
 }
 
 TEST_F(AlarmRules, VolumesAndFractionsHaveTheirOwnLimits) {

@@ -27,6 +27,7 @@ nlohmann::json record_of(const std::string& scene, const std::vector<std::string
 struct Point {
   const char* scene;
   std::vector<std::string> overrides;
+  const char* allowed = "";  // a monitor whose warning is right, and no failure here
 };
 
 class Holds : public ::testing::TestWithParam<Point> {};
@@ -34,7 +35,10 @@ class Holds : public ::testing::TestWithParam<Point> {};
 TEST_P(Holds, EndsWithoutAWarning) {
   const nlohmann::json record = record_of(GetParam().scene, GetParam().overrides);
   EXPECT_EQ(record["exit"]["state"], "finished") << record["exit"]["reason"];
-  EXPECT_EQ(record["warnings"], nlohmann::json::array());
+  auto warnings = record["warnings"];
+  std::erase_if(warnings.get_ref<nlohmann::json::array_t&>(),
+                [](const auto& w) { return w["monitor"] == GetParam().allowed; });
+  EXPECT_EQ(warnings, nlohmann::json::array());
 }
 
 // The ends of every axis along which nothing failed, and the near side of the borders.
@@ -44,9 +48,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Point{"collapse", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}},
                       Point{"float", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}},
                       Point{"slosh", {"liquid.viscosity=1e-6"}}, Point{"slosh", {"liquid.viscosity=100"}},
-                      Point{"collapse", {"bed.solid_fraction=0.629"}},
-                      Point{"collapse", {"bed.solid_fraction=0.629", "solid.friction=0"}},
-                      Point{"collapse", {"bed.solid_fraction=0.61", "solid.friction=0"}},
+                      Point{"collapse", {"bed.solid_fraction=0.585"}},
+                      Point{"collapse", {"bed.solid_fraction=0.629"}, "elastic start"},
+                      Point{"collapse", {"bed.solid_fraction=0.629", "solid.friction=0"}, "elastic start"},
+                      Point{"collapse", {"bed.solid_fraction=0.61", "solid.friction=0"}, "elastic start"},
                       Point{"collapse", {"bed.solid_fraction=1e-7"}}, Point{"collapse", {"gas.density=0.1"}},
                       Point{"collapse", {"gas.density=1000"}}, Point{"slosh", {"gas.density=0.1"}},
                       Point{"float", {"solid.density=50"}}, Point{"float", {"solid.density=950"}},
@@ -78,12 +83,14 @@ TEST_P(Fails, IsSeenByItsMonitor) {
 
 // Where so little energy is turned over that what volume_tolerance leaves unsolved is a per cent of it; and,
 // with grains that hardly sink, where what first-order transport lifts is more than what drag takes.
-INSTANTIATE_TEST_SUITE_P(Borders, Fails,
-                         ::testing::Values(Wrong{"collapse", {"solid.density=1050"}, "energy residual"},
-                                           Wrong{"collapse",
-                                                 {"solid.density=1050", "numerics.volume_tolerance=1e-9"},
-                                                 "energy created"},
-                                           Wrong{"collapse", {"solid.diameter=5e-5"}, "energy residual"}));
+INSTANTIATE_TEST_SUITE_P(
+    Borders, Fails,
+    ::testing::Values(
+        Wrong{"collapse", {"solid.density=1050"}, "energy residual"},
+        Wrong{"collapse", {"solid.density=1050", "numerics.volume_tolerance=1e-9"}, "energy created"},
+        Wrong{"collapse", {"solid.diameter=5e-5"}, "energy residual"},
+        // With the second-order flux such a bed ends where the step has it.
+        Wrong{"collapse", {"bed.solid_fraction=0.61", "numerics.solid_flux=limited"}, "elastic start"}));
 
 // A tighter tolerance mends the residual.
 INSTANTIATE_TEST_SUITE_P(TighterTolerance, Holds,

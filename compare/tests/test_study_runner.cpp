@@ -1,0 +1,127 @@
+// Runs of the study by a stand-in for the program: what fails, hangs or leaves nothing behind is a point, not
+// an end.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "compare/study/runner.hpp"
+
+namespace granvof::compare {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_literals;
+
+class StudyRunner : public testing::Test {
+ protected:
+  StudyRunner() {
+    root_ = fs::path(testing::TempDir()) /
+            ("study-runner-"s + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  ~StudyRunner() override { fs::remove_all(root_); }
+
+  // A program that says its version, and for a run does `body`, a shell script; $out is the run directory.
+  CachedRunner runner(const std::string& body, double timeout = 60.0) {
+    const fs::path program = root_ / "program";
+    std::ofstream(program) << "#!/bin/sh\n"
+                              "if [ \"$1\" = --version ]; then echo 'stand-in 1.0 (abc)'; exit; fi\n"
+                              "echo run >> "
+                           << (root_ / "calls").string()
+                           << "\nwhile [ $# -gt 0 ]; do [ \"$1\" = --out ] && out=$2; shift; done\n"
+                           << body << "\n";
+    fs::permissions(program, fs::perms::owner_all);
+    RunnerOptions options{program, root_ / "cache"};
+    options.timeout = timeout;
+    options.progress = false;
+    return CachedRunner(options);
+  }
+  int calls() const {
+    std::ifstream in(root_ / "calls");
+    int count = 0;
+    for (std::string line; std::getline(in, line);) ++count;
+    return count;
+  }
+  const Job job_{fs::path(GRANVOF_CASES_DIR) / "canary.toml", {"time.end=2"}};
+
+ private:
+  fs::path root_;
+};
+
+// What a run that ended early leaves behind.
+constexpr const char* half_a_run =
+    "mkdir -p $out; echo '{\"exit\": {\"state\": \"failed\", \"reason\": \"step collapse\"}, "
+    "\"core_seconds\": 3.5, "
+    "\"simulated_time\": 0.5}' > $out/run.json\n";
+
+TEST_F(StudyRunner, AFailedRunSaysWhyAndWhatItCost) {
+  CachedRunner made = runner(half_a_run + "echo first >&2; echo 'step collapse at t = 0.5 s' >&2; exit 1"s);
+  const Outcome failed = made.run(job_);
+  EXPECT_FALSE(failed.run);
+  EXPECT_FALSE(failed.refused);
+  EXPECT_EQ(failed.failure, "exit code 1: step collapse at t = 0.5 s");
+  EXPECT_DOUBLE_EQ(failed.core_seconds, 3.5);
+  EXPECT_DOUBLE_EQ(failed.cost(), 7.0);
+  const Outcome again = made.run(job_);
+  EXPECT_TRUE(again.kept);
+  EXPECT_EQ(again.failure, failed.failure);
+  EXPECT_DOUBLE_EQ(again.cost(), 7.0);
+  EXPECT_EQ(calls(), 1);
+}
+
+TEST_F(StudyRunner, ARunBeyondItsTimeIsEndedAndMadeAgainOnlyForALongerOne) {
+  const std::string hangs = half_a_run + "exec sleep 30"s;
+  const auto begin = std::chrono::steady_clock::now();
+  const Outcome ended = runner(hangs, 0.3).run(job_);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  EXPECT_FALSE(ended.run);
+  EXPECT_EQ(ended.failure, "ended after 0.3 s of wall-clock time");
+  EXPECT_DOUBLE_EQ(ended.cost(), 7.0);
+  EXPECT_TRUE(runner(hangs, 0.3).run(job_).kept);
+  EXPECT_TRUE(runner(hangs, 0.2).run(job_).kept);
+  EXPECT_EQ(calls(), 1);
+  EXPECT_FALSE(runner(hangs, 0.4).run(job_).kept);
+  EXPECT_EQ(calls(), 2);
+}
+
+TEST_F(StudyRunner, ARunThatLeavesNothingHasFailed) {
+  const Outcome nothing = runner("exit 0").run(job_);
+  EXPECT_FALSE(nothing.run);
+  EXPECT_FALSE(nothing.failure.empty());
+  EXPECT_EQ(nothing.cost(), 0.0);
+}
+
+TEST_F(StudyRunner, ARunThatSaysItFailedHasFailedWhateverItsExitCode) {
+  const Outcome failed = runner(half_a_run).run(job_);
+  EXPECT_FALSE(failed.run);
+  EXPECT_NE(failed.failure.find("step collapse"), std::string::npos) << failed.failure;
+}
+
+// Bad input ends the study: the same would be wrong with every run.
+TEST_F(StudyRunner, BadInputOfTheProgramIsNoPoint) {
+  CachedRunner made = runner("echo 'cannot write there' >&2; exit 2");
+  try {
+    made.run(job_);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "cannot write there");
+  }
+}
+
+TEST_F(StudyRunner, ACaseThatIsRefusedIsNotStarted) {
+  const Outcome refused = runner("exit 0").run({job_.case_file, {"numerics.cfl=7"}});
+  EXPECT_TRUE(refused.refused);
+  EXPECT_NE(refused.failure.find("numerics.cfl"), std::string::npos) << refused.failure;
+  EXPECT_EQ(calls(), 0);
+}
+
+TEST_F(StudyRunner, AProgramThatIsNotThereIsSaid) {
+  RunnerOptions options{"/nonexistent/granvof", fs::path(testing::TempDir()) / "study-runner-none"};
+  EXPECT_THROW(CachedRunner{options}, std::runtime_error);
+}
+
+}  // namespace
+}  // namespace granvof::compare

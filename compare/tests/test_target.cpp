@@ -1,0 +1,98 @@
+// References of a study: what a record costs and how uncertain it is.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "compare/input/bands.hpp"
+#include "compare/study/target.hpp"
+#include "solver/output/output_error.hpp"
+#include "solver/scene/load_scene.hpp"
+
+namespace granvof::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* bands = R"([
+ {"scene": "canary", "against": "seed2", "column": "front_dense [m]", "rms": 0.003},
+ {"scene": "canary", "against": "cell-3.3mm", "column": "front_dense [m]", "rms": 0.002},
+ {"scene": "canary", "against": "cell-2mm", "column": "front_dense [m]", "rms": 0.004},
+ {"scene": "canary", "against": "smooth-floor", "column": "front_dense [m]", "rms": 1.0}])";
+
+class Records : public testing::Test {
+ protected:
+  Records()
+      : root_(fs::path(testing::TempDir()) /
+              (std::string("records-") + testing::UnitTest::GetInstance()->current_test_info()->name())),
+        scene_(load_scene(fs::path(GRANVOF_CASES_DIR) / "canary.toml")) {
+    fs::remove_all(root_);
+  }
+  ~Records() override { fs::remove_all(root_); }
+
+  void write(const fs::path& file, const std::string& text) {
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text;
+  }
+  // A front that runs `reach` from 0.03 m within 0.2 s.
+  void record(const std::string& directory, double reach) {
+    write(directory + "/record.json",
+          "{\"case_hash\": \"" + scene_.reference_hash +
+              "\", \"core_seconds\": 50, \"monitors\": {\"preparation_core_seconds\": 15}}");
+    write(directory + "/series.csv", "time [s],front_dense [m]\n0,0.03\n0.1," +
+                                         std::to_string(0.03 + 0.5 * reach) + "\n0.2," +
+                                         std::to_string(0.03 + reach) + "\n");
+  }
+  const fs::path root_;
+  const Scene scene_;
+};
+
+TEST_F(Records, BandsOfSeedGridAndSliceAreTakenTogether) {
+  EXPECT_FALSE(band_of(root_, "front_dense [m]"));
+  write("bands.json", bands);
+  EXPECT_NEAR(*band_of(root_, "front_dense [m]"), 0.005, 1e-15);
+  EXPECT_FALSE(band_of(root_, "p_base [Pa]"));
+  write("bands.json", "{}");
+  EXPECT_THROW(band_of(root_, "front_dense [m]"), OutputError);
+}
+
+TEST_F(Records, OneRecordIsAsUncertainAsTheCanary) {
+  record("canary/seed1", 0.05);
+  const Quantity front = parse_quantity("front", std::nullopt);
+  EXPECT_EQ(dem_target(front, scene_, root_, "canary").floor, 0.0);
+  write("bands.json", bands);
+  const Target target = dem_target(front, scene_, root_, "canary");
+  EXPECT_NEAR(target.floor, 0.005 / 0.05, 1e-12);
+  // Run-out is the same front over h0.
+  EXPECT_NEAR(dem_target(parse_quantity("run_out", std::nullopt), scene_, root_, "canary").floor,
+              0.005 / 0.05, 1e-12);
+}
+
+TEST_F(Records, HalfTheSpreadOfSeedsWhereItIsLarger) {
+  record("canary/seed1", 0.05);
+  record("canary/seed2", 0.09);
+  write("bands.json", bands);
+  const Target target = dem_target(parse_quantity("front", std::nullopt), scene_, root_, "canary");
+  EXPECT_GT(target.floor, 0.12);
+  EXPECT_NE(target.source.find("2 records"), std::string::npos);
+}
+
+// core_seconds is of the whole program, the preparation of the beads included.
+TEST_F(Records, PreparationCountsOnce) {
+  record("canary/seed1", 0.05);
+  const Target target = dem_target(parse_quantity("front", std::nullopt), scene_, root_, "canary");
+  ASSERT_TRUE(target.cost);
+  EXPECT_NEAR(*target.cost, 50.0 / 0.2, 1e-9);
+}
+
+TEST_F(Records, ARecordWithoutVariantsIsRead) {
+  record("peers/parcels/canary", 0.05);
+  const Target target =
+      dem_target(parse_quantity("front", std::nullopt), scene_, root_ / "peers/parcels", "canary");
+  EXPECT_TRUE(target.observed.defined()) << target.note;
+}
+
+}  // namespace
+}  // namespace granvof::compare
