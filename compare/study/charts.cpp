@@ -176,7 +176,8 @@ ChartResult make_chart(const Chart& chart, const Study& study, const std::filesy
       job.set.insert(job.set.end(), method.set.begin(), method.set.end());
       Outcome outcome = runner.run(job);
       if (outcome.refused) {  // the case does not take this method or grid: nothing was run that could fail
-        result.left_out.push_back(fmt::format("{} on {} ({})", method.name, cell_label(cell), outcome.failure));
+        result.left_out.push_back(
+            fmt::format("{} on {} ({})", method.name, cell_label(cell), outcome.failure));
         continue;
       }
       outcomes.push_back(std::move(outcome));

@@ -66,8 +66,7 @@ std::string charts_text(const std::vector<ChartResult>& results) {
                               fmt::format("{:.3g} %", 100.0 * *panel.other_errors[i]), result.others[i].cost);
     }
     for (const std::string& line : recommendations(result)) text += line + "\n";
-    if (!result.left_out.empty())
-      text += fmt::format("left out: {}\n", fmt::join(result.left_out, ", "));
+    if (!result.left_out.empty()) text += fmt::format("left out: {}\n", fmt::join(result.left_out, ", "));
   }
   return text + "* Pareto front\n";
 }

@@ -103,9 +103,9 @@ std::optional<Outcome> CachedRunner::kept(const Job& job, const Scene& scene,
   std::vector<std::pair<fs::file_time_type, fs::path>> earlier;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(directory.parent_path(), missing)) {
-    const auto note = read_note(entry.path());
-    if (!note || !fs::exists(entry.path() / "run.json")) continue;
-    if (note->at("set") == nlohmann::json(job.set) ||
+    const auto of_entry = read_note(entry.path());
+    if (!of_entry || !fs::exists(entry.path() / "run.json")) continue;
+    if (of_entry->at("set") == nlohmann::json(job.set) ||
         read_facts(entry.path() / "run.json").resolved_case == scene.resolved)
       earlier.emplace_back(entry.last_write_time(), entry.path());
   }

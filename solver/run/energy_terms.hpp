@@ -25,10 +25,11 @@ struct EnergyTerms {
 
   double numerical_time = 0.0;      // implicit steps: 1/2 m |u^{n+1} - u^n|^2
   double numerical_momentum = 0.0;  // upwind momentum, mass that crosses faces without it, explicit viscosity
-  // Upwind solid and liquid. The flux of f_s is that of the face's mean less |u| / 2 times the jump across the face, a
-  // diffusion: gravity works on the mean mass of the face, and what is spread stays lifted where heavy lies below light.
-  // So it is negative (energy made) in stable layers, as the top of a bed is: -g (rho_s - rho_l) |u| / 2 times the jump.
-  // It vanishes with the cell: s1 to T = 10, -0.165, -0.082, -0.038, -0.017 J/m on 5, 2.5, 1.25, 0.625 mm.
+  // Upwind solid and liquid. The flux of f_s is that of the face's mean less |u| / 2 times the jump across
+  // the face, a diffusion: gravity works on the mean mass of the face, and what is spread stays lifted where
+  // heavy lies below light. So it is negative (energy made) in stable layers, as the top of a bed is: -g
+  // (rho_s - rho_l) |u| / 2 times the jump. It vanishes with the cell: s1 to T = 10, -0.165, -0.082, -0.038,
+  // -0.017 J/m on 5, 2.5, 1.25, 0.625 mm.
   double numerical_volume = 0.0;
   double numerical_stress = 0.0;    // friction at the velocity before the pressure step; elastic pressure
   double numerical_granular = 0.0;  // lag between kinetic stress and Theta, and the bounds on Theta

@@ -106,8 +106,8 @@ TEST(EnergyBudget, ADenseStartIsGivenNoMoreEnergyThanItsContactsHold) {
   }
 }
 
-// Upwind volume transport makes energy where heavy lies below light, as in a bed. It is an error of the discretisation, not
-// of the budget: half the cell, half of it.
+// Upwind volume transport makes energy where heavy lies below light, as in a bed. It is an error of the
+// discretisation, not of the budget: half the cell, half of it.
 TEST(EnergyBudget, WhatVolumeTransportMakesVanishesWithTheCell) {
   std::vector<double> made;
   for (const char* cell : {"grid.dx=0.01", "grid.dx=0.005", "grid.dx=0.0025"}) {
