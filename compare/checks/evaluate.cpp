@@ -9,6 +9,7 @@
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
 #include "compare/input/records.hpp"
+#include "compare/input/uncertainty.hpp"
 #include "solver/scene/load_scene.hpp"
 
 namespace granvof::compare {
@@ -21,10 +22,13 @@ struct ReferenceValue {
   std::string note;
 };
 
-// Mean over the recorded variants; the band is the larger of the stated one and half their spread.
+// Mean over the recorded variants; the band is the largest of the stated one, half their spread, and what
+// bands.json says of the quantity.
 ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
-                                  const std::vector<LoadedRun>& variants, const FindRun& find) {
+                                  const std::vector<LoadedRun>& variants, const FindRun& find,
+                                  const std::filesystem::path& record_folder) {
   ReferenceValue reference;
+  reference.band = check.reference.band;
   if (variants.empty()) {
     reference.note = fmt::format("no record of '{}'", *check.reference.record);
     return reference;
@@ -37,17 +41,20 @@ ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
       continue;
     }
     const Measured measured = metric.function(*variant.run, check.parameters, find);
-    if (measured.value)
+    if (measured.value) {
       values.push_back(*measured.value);
-    else
+      reference.band = std::max(reference.band,
+                                record_uncertainty(check.metric, *variant.run, record_folder).value_or(0.0));
+    } else {
       reference.note = fmt::format("{}: {}", variant.run->directory.string(), measured.note);
+    }
   }
   if (values.empty()) return reference;
   double sum = 0.0;
   for (const double value : values) sum += value;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   reference.value = sum / static_cast<double>(values.size());
-  reference.band = std::max(check.reference.band, 0.5 * (*high - *low));
+  reference.band = std::max(reference.band, 0.5 * (*high - *low));
   return reference;
 }
 
@@ -72,7 +79,8 @@ Result without_value(Result result, Verdict verdict, std::string note) {
 }
 
 Result evaluate_check(const Check& check, const Evaluation& evaluation, const RunSummary& summary,
-                      const std::map<std::string, std::vector<LoadedRun>>& records) {
+                      const std::map<std::string, std::vector<LoadedRun>>& records,
+                      const std::filesystem::path& record_folder) {
   const MetricEntry& metric = *find_metric(check.metric);
   Result result;
   result.check = check;
@@ -90,8 +98,9 @@ Result evaluate_check(const Check& check, const Evaluation& evaluation, const Ru
   const Measured measured = metric.function(run, check.parameters, find);
   result.value = measured.value;
   const ReferenceValue reference =
-      check.reference.record ? recorded_reference(check, metric, records.at(*check.reference.record), find)
-                             : stated_reference(check, run);
+      check.reference.record
+          ? recorded_reference(check, metric, records.at(*check.reference.record), find, record_folder)
+          : stated_reference(check, run);
   result.reference = reference.value;
   result.band = reference.band;
   result.note = reference.note;
@@ -178,7 +187,7 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
   for (const Check& check : checks) {
     const auto summary = std::find_if(evaluation.runs.begin(), evaluation.runs.end(),
                                       [&](const RunSummary& run) { return run.plan.id == check.run; });
-    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records));
+    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records, paths.records));
   }
   return evaluation;
 }

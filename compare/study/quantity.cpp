@@ -10,20 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "compare/input/bands.hpp"
 #include "compare/input/curves.hpp"
+#include "compare/input/uncertainty.hpp"
 #include "compare/metrics/run_out.hpp"
 
 namespace granvof::compare {
 namespace {
-
-double one(const Run&) {
-  return 1.0;
-}
-
-double initial_height(const Run& run) {
-  return column_of(run).height;
-}
 
 Curve solid_height(const Run& run) {
   return run.curve("y_solid_mean");
@@ -34,12 +26,11 @@ Curve front(const Run& run) {
 }
 
 constexpr std::array curves{
-    CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve, "front_dense [m]", initial_height},
-    CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front, "front_dense [m]", one},
-    CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height, "y_solid_mean [m]",
-               one},
+    CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve},
+    CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front},
+    CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height},
     CurveEntry{"liquid_front", "tau", "-", "x / a of the water front against t sqrt(2 g / a)",
-               scaled_liquid_front, "", nullptr},
+               scaled_liquid_front},
 };
 
 const CurveEntry* find_curve(std::string_view name) {
@@ -146,14 +137,13 @@ std::optional<double> relative_distance(const Quantity& quantity, const Observed
   return *distance / *range;
 }
 
-std::optional<double> record_uncertainty(const Quantity& quantity, const Run& record,
-                                         const Observed& observed, const std::filesystem::path& records) {
-  const CurveEntry* entry = quantity.is_curve ? find_curve(quantity.name) : nullptr;
-  if (!entry || entry->column.empty()) return std::nullopt;
-  const auto band = band_of(records, entry->column);
-  const auto range = range_of(observed.curve, quantity.parameters.window);
-  if (!band || !range) return std::nullopt;
-  return *band / (entry->column_per_unit(record) * *range);
+std::optional<double> relative_uncertainty(const Quantity& quantity, const Run& record,
+                                           const Observed& observed, const std::filesystem::path& records) {
+  const auto uncertainty = record_uncertainty(quantity.name, record, records);
+  const auto scale =
+      quantity.is_curve ? range_of(observed.curve, quantity.parameters.window) : observed.value;
+  if (!uncertainty || !scale || *scale == 0.0) return std::nullopt;
+  return *uncertainty / std::abs(*scale);
 }
 
 }  // namespace granvof::compare

@@ -20,9 +20,6 @@ struct CurveEntry {
   std::string_view unit;
   std::string_view description;
   Curve (*function)(const Run&);
-  // The column of series.csv that it is made of, and how much of that column one of it is; empty: of several.
-  std::string_view column;
-  double (*column_per_unit)(const Run&);
 };
 
 std::span<const CurveEntry> curve_table();
@@ -55,10 +52,8 @@ Observed observe(const Quantity& quantity, const Run& run);
 // undefined, does not cover the window, or b's magnitude or range is 0.
 std::optional<double> relative_distance(const Quantity& quantity, const Observed& a, const Observed& b);
 
-// The rms uncertainty of a record's curve, relative as relative_distance() is [-]: what
-// reference/results/bands.json says of its column. Nothing for a metric, for a curve of no one column, and
-// where that file does not know the column.
-std::optional<double> record_uncertainty(const Quantity& quantity, const Run& record,
-                                         const Observed& observed, const std::filesystem::path& records);
+// The uncertainty of a record (input/uncertainty.hpp), relative as relative_distance() is [-].
+std::optional<double> relative_uncertainty(const Quantity& quantity, const Run& record,
+                                           const Observed& observed, const std::filesystem::path& records);
 
 }  // namespace granvof::compare

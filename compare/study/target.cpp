@@ -69,7 +69,7 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
     Observed observed = observe(quantity, *loaded.run);
     if (const auto cost = cost_of_record(*loaded.run)) dearest = std::max(dearest, *cost);
     if (!observed.defined()) continue;
-    if (const auto band = record_uncertainty(quantity, *loaded.run, observed, records))
+    if (const auto band = relative_uncertainty(quantity, *loaded.run, observed, records))
       target.floor = std::max(target.floor, *band);
     variants.push_back(std::move(observed));
   }

@@ -22,7 +22,7 @@ struct Target {
 inline constexpr const char* kind_of_own = "own finest grid";
 
 // Mean of the records of `name` that belong to `scene`; floor: half of the largest distance between two of
-// them, at least what record_uncertainty() says.
+// them, at least what relative_uncertainty() says.
 Target dem_target(const Quantity& quantity, const Scene& scene, const std::filesystem::path& records,
                   const std::string& name);
 // A formula of checks/theory.hpp, computed from `run`.

@@ -169,6 +169,16 @@ TEST_F(Evaluate, OneRecordHasNoBand) {
   EXPECT_EQ(evaluation.unexpected(), 1);
 }
 
+TEST_F(Evaluate, OneRecordIsAsUncertainAsTheCanary) {
+  write_run("s1", series(0.1));
+  write_record("seed1", 0.09, scene_.reference_hash);
+  write(paths_.records / "bands.json",
+        R"([{"scene": "canary", "against": "seed2", "column": "front_dense [m]", "rms": 0.0049}])");
+  const Evaluation evaluation = evaluate_row(record_row);
+  EXPECT_NEAR(evaluation.results[0].band, 0.1, 1e-9);  // over h0
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::within_band);
+}
+
 TEST_F(Evaluate, AStaleRecordIsNeverCompared) {
   write_run("s1", series(0.1));
   write_record("seed1", 0.1, "another");

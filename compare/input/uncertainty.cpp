@@ -1,0 +1,40 @@
+#include "compare/input/uncertainty.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "compare/input/bands.hpp"
+#include "compare/input/curves.hpp"
+
+namespace granvof::compare {
+namespace {
+
+struct Entry {
+  std::string_view quantity;
+  std::string_view column;  // as in bands.json
+  bool over_height;         // divided by the height of the column
+};
+
+// The front at f_s = 0.30 moves with the cells as the dense one does.
+constexpr std::array table{
+    Entry{"run_out", "front_dense [m]", true},
+    Entry{"front", "front_dense [m]", false},
+    Entry{"grain_front", "front_dense [m]", false},
+    Entry{"solid_height", "y_solid_mean [m]", false},
+    Entry{"interface_height", "interface_height [m]", false},
+    Entry{"base_pressure_peak", "excess_base_pressure [Pa]", false},
+};
+
+}  // namespace
+
+std::optional<double> record_uncertainty(std::string_view quantity, const Run& record,
+                                         const std::filesystem::path& records) {
+  const auto* entry =
+      std::find_if(table.begin(), table.end(), [&](const Entry& e) { return e.quantity == quantity; });
+  if (entry == table.end()) return std::nullopt;
+  const auto band = band_of(records, entry->column);
+  if (!band) return std::nullopt;
+  return entry->over_height ? *band / column_of(record).height : *band;
+}
+
+}  // namespace granvof::compare
