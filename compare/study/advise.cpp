@@ -9,7 +9,7 @@ namespace granvof::compare {
 namespace {
 
 constexpr double share_of_a_part = 0.25;  // of the tolerance, that one part may move the result by
-constexpr double least_saving = 0.05;     // of the cost, that makes it worth to leave a part out
+constexpr double least_saving = 0.1;      // of the cost, that makes it worth to leave a part out
 
 class Walk {
  public:
@@ -36,9 +36,14 @@ class Walk {
     return step;
   }
 
+  static bool saves(const Trial& trial, const Trial& full) {
+    return trial.cost <= full.cost * (1.0 - std::max(least_saving, trial.noise + full.noise));
+  }
+
   bool meets(const Trial& trial) const { return trial.error && *trial.error <= tolerance_; }
 
-  // The full model by all methods on one grid; those that meet the tolerance, the cheapest first.
+  // The full model by all methods on one grid; those that meet the tolerance, the cheapest first, or those of
+  // them that cost the same within the noise in the study's order.
   std::vector<Step> within_tolerance(std::size_t grid) {
     std::vector<Step> found;
     for (const Method& method : methods_) {
@@ -47,8 +52,13 @@ class Walk {
       if (step.trial.error) step.remark = meets(step.trial) ? "within the tolerance" : "beyond the tolerance";
       if (meets(step.trial)) found.push_back(step);
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Step& a, const Step& b) { return a.trial.cost < b.trial.cost; });
+    const auto by_cost = [](const Step& a, const Step& b) { return a.trial.cost < b.trial.cost; };
+    if (found.empty()) return found;
+    const Trial cheapest = std::min_element(found.begin(), found.end(), by_cost)->trial;
+    const auto dearer = std::stable_partition(found.begin(), found.end(), [&](const Step& step) {
+      return step.trial.cost <= cheapest.cost * (1.0 + std::max(cheapest.noise, step.trial.noise));
+    });
+    std::stable_sort(dearer, found.end(), by_cost);
     return found;
   }
 
@@ -95,8 +105,8 @@ class Walk {
       const auto moved = bench_.distance(without, full);
       if (!step.trial.error || !moved) continue;
       const double saved = 1.0 - step.trial.cost / with_all.cost;
-      const double noise = std::max(step.trial.noise, with_all.noise);
-      const bool may_go = *moved <= share_of_a_part * tolerance_ && saved >= std::max(least_saving, noise);
+      const double noise = step.trial.noise + with_all.noise;
+      const bool may_go = *moved <= share_of_a_part * tolerance_ && saves(step.trial, with_all);
       step.remark = fmt::format("moves the result by {:.2g} %, saves {:.0f} % (noise {:.0f} %): {}",
                                 100.0 * *moved, 100.0 * saved, 100.0 * noise, may_go ? "may go" : "stays");
       if (!may_go) continue;
@@ -127,7 +137,7 @@ class Walk {
       Configuration reduced = full.configuration;
       for (const Screened& one : gone) reduced.without.push_back(one.part);
       Step& step = attempt(reduced);
-      const bool cheaper = step.trial.cost < full.trial.cost;
+      const bool cheaper = saves(step.trial, full.trial);
       if (step.trial.error)
         step.remark = !meets(step.trial) ? "beyond the tolerance"
                       : cheaper          ? "within the tolerance"

@@ -1,4 +1,5 @@
 #include <map>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,6 +44,22 @@ std::vector<std::string> summary(const AdviseReport& report) {
   return lines;
 }
 
+// A comment of lines of at most 120 characters, broken between words; what goes on is indented.
+std::string comment(const std::string& text, const std::string& indent = "") {
+  constexpr std::size_t width = 120;
+  std::string lines, line = indent.empty() ? "#" : fmt::format("# {}", indent);
+  bool empty = true;
+  std::istringstream words(text);
+  for (std::string word; words >> word; empty = false) {
+    if (!empty && line.size() + 1 + word.size() > width) {
+      lines += fmt::format("{}\n", line);
+      line = fmt::format("#   {}", indent);
+    }
+    line += fmt::format(" {}", word);
+  }
+  return fmt::format("{}{}\n", lines, line);
+}
+
 // "numerics.solid_flux=limited" -> "solid_flux = \"limited\"": a bare word becomes a text, as --set takes it.
 std::string toml_line(const std::string& key, const std::string& value) {
   const bool literal = value == "true" || value == "false" || value.find_first_of("0123456789[{\"'+-") == 0;
@@ -82,14 +99,16 @@ std::string advise_json(const AdviseReport& report) {
 
 std::string advised_case(const AdviseReport& report, const std::filesystem::path& directory,
                          const std::string& name) {
-  std::string text = fmt::format(
-      "# {}: {} as cheap as {} to {:g} % allows; by granvof-compare advise, {}.\n#\n", name, report.scene,
-      report.input.quantity.label(), 100.0 * report.input.tolerance, report.version);
-  for (const std::string& line : summary(report)) text += fmt::format("# {}\n", line);
+  std::string text = comment(fmt::format(
+      "{}: {} as cheap as {} to {:g} % allows; by granvof-compare advise, {}.", name, report.scene,
+      report.input.quantity.label(), 100.0 * report.input.tolerance, report.version));
+  text += "#\n";
+  for (const std::string& line : summary(report)) text += comment(line);
   text += "#\n# Evidence (error, core-s per simulated s):\n";
   for (const Step& step : report.advice.steps)
-    text += fmt::format("#   {}: {}, {:.3g}; {}\n", name_of(step.configuration), error_text(step.trial),
-                        step.trial.cost, step.remark);
+    text += comment(fmt::format("{}: {}, {:.3g}; {}", name_of(step.configuration), error_text(step.trial),
+                                step.trial.cost, step.remark),
+                    " ");
   // The last of two overrides of one key holds, as on the command line.
   std::map<std::string, std::map<std::string, std::string>> tables;
   for (const std::string& assignment : report.set) {

@@ -119,10 +119,22 @@ TEST(Advise, LeavesOutPartsThatMoveNothing) {
   EXPECT_EQ(name_of(advice.confirmation->configuration), "plain on 1.25 mm, algebraic, no LES");
 }
 
+TEST(Advise, OfMethodsThatCostTheSameTheFirstIsTaken) {
+  FakeBench bench;
+  bench.result = first_order;
+  const Method same{"same", {}, "", std::nullopt};
+  EXPECT_EQ(name_of(advise(cells, {same, plain}, {}, 0.06, bench).chosen->configuration), "same on 2.5 mm");
+  EXPECT_EQ(name_of(advise(cells, {sharp, plain}, {}, 0.06, bench).chosen->configuration), "sharp on 5 mm");
+  bench.noise = 0.6;  // sharp costs half as much again
+  EXPECT_EQ(name_of(advise(cells, {sharp, plain}, {}, 0.12, bench).chosen->configuration), "sharp on 5 mm");
+  bench.noise = 0.4;
+  EXPECT_EQ(name_of(advise(cells, {sharp, plain}, {}, 0.12, bench).chosen->configuration), "plain on 5 mm");
+}
+
 TEST(Advise, ASavingWithinTheNoiseOfTheCostIsNone) {
   FakeBench bench;
   bench.result = first_order;
-  bench.noise = 0.25;  // no LES saves 20 %, off saves 50 %
+  bench.noise = 0.12;  // of each of two costs; no LES saves 20 %, off saves 50 %
   const Advice advice = advise(cells, {plain}, {no_les, off}, 0.06, bench);
   EXPECT_EQ(name_of(advice.chosen->configuration), "plain on 2.5 mm, off");
 }
