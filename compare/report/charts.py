@@ -10,6 +10,7 @@ run shows these, with their version and date.
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -49,11 +50,15 @@ def draw(chart, methods, directory):
     panels = [panel for panel in chart["panels"] if panel["defined"] and any(error is not None for error in panel["errors"])]
     if not panels:
         return None
-    figure, axes = plt.subplots(1, len(panels), squeeze=False, figsize=(3.9 * len(panels) + 2.6, 4.4))
-    for axis, panel in zip(axes[0], panels):
+    columns = min(len(panels), 2)
+    rows = math.ceil(len(panels) / columns)
+    figure, axes = plt.subplots(rows, columns, squeeze=False, figsize=(3.9 * columns + 2.6, 4.2 * rows + 0.2))
+    for axis in axes.flat[len(panels):]:
+        axis.set_axis_off()
+    for axis, panel in zip(axes.flat, panels):
         draw_panel(axis, chart, panel, look(methods))
     handles, labels = axes[0][0].get_legend_handles_labels()
-    for axis in axes[0][1:]:
+    for axis in axes.flat[1:]:
         for handle, label in zip(*axis.get_legend_handles_labels()):
             if label not in labels:
                 handles.append(handle)
