@@ -139,16 +139,16 @@ ChartPoint point_of(const Method& method, double cell, const std::vector<std::st
 
 std::string advice(const ChartResult& result, const PanelResult& panel, double tolerance) {
   if (panel.target.floor > tolerance)
-    return fmt::format("not to be told (the reference itself is uncertain by {:.2g} %)",
+    return fmt::format("nothing can be told (the reference itself is uncertain by {:.2g} %)",
                        100.0 * panel.target.floor);
   std::vector<WorkPrecision> points;
   points.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
     points.push_back({result.points[i].cost, panel.errors[i]});
   const auto best = cheapest_within(points, tolerance);
-  if (!best) return "none of these";
+  if (!best) return "none of these is enough";
   const ChartPoint& point = result.points[*best];
-  std::string text = fmt::format("{} on {} ({:.2g} core-s per s, {:.2g} work units", point.method,
+  std::string text = fmt::format("use {} on {} ({:.2g} core-s per s, {:.2g} work units", point.method,
                                  cell_label(point.cell), point.cost, point.work);
   if (result.dem_cost)
     text += fmt::format("; DEM-VOF costs {:.0f} times that", *result.dem_cost / point.cost);
@@ -200,7 +200,7 @@ std::vector<std::string> recommendations(const ChartResult& result) {
     }
     std::vector<std::string> parts;
     for (const double tolerance : tolerances)
-      parts.push_back(fmt::format("for {:g} % use {}", 100.0 * tolerance, advice(result, panel, tolerance)));
+      parts.push_back(fmt::format("for {:g} % {}", 100.0 * tolerance, advice(result, panel, tolerance)));
     line += fmt::format("{}", fmt::join(parts, "; "));
     if (!result.dem_cost) line += "; no DEM-VOF record to set the cost against";
     lines.push_back(line);
