@@ -40,8 +40,9 @@ Measured run_out_apart(const Run& run, const Parameters& p, const FindRun& find)
 }
 
 Measured run_out_exponent(const Run& run, const Parameters& p, const FindRun&) {
-  const auto fit = power_law(run.curve("front_dense"), *p.window);
-  return measured(fit ? std::optional(fit->exponent) : std::nullopt, "fewer than two samples of the front");
+  const auto fit = power_law(free_front(run), *p.window);
+  return measured(fit ? std::optional(fit->exponent) : std::nullopt,
+                  "fewer than two samples of the front before it meets the far wall");
 }
 
 Measured deposit_height(const Run& run, const Parameters& p, const FindRun&) {
@@ -231,7 +232,8 @@ constexpr std::array table{
     MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at", at_only, run_out_at},
     MetricEntry{"run_out_distance", "-", "rms over T of the difference of the run-out curves of two runs",
                 Needs{.window = true, .against = true}, run_out_apart},
-    MetricEntry{"run_out_exponent", "-", "b of l = a t^b, eq (26), l by the dense front", window_only,
+    MetricEntry{"run_out_exponent", "-",
+                "b of l = a t^b, eq (26), l by the dense front until it meets the far wall", window_only,
                 run_out_exponent},
     MetricEntry{"flat_top", "-", "share of the deposit's length within 5 % of its greatest height, at T = at",
                 at_only, flat_top},

@@ -21,6 +21,10 @@ Curve run_out_curve(const Run& run) {
   return run_out(run.curve("front_dense"), run.curve(both ? "front_dilute" : "front_dense"), column_of(run));
 }
 
+Curve free_front(const Run& run) {
+  return before_wall(run.curve("front_dense"), run.scene.tank[0], run.scene.grid.spacing[0]);
+}
+
 double base_pressure_at_rest(const Scene& scene) {
   double level = 0.0;
   for (const Box& box : scene.liquid_boxes) level = std::max(level, box.upper[1]);

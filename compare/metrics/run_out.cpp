@@ -27,6 +27,15 @@ Curve run_out(const Curve& front_dense, const Curve& front_dilute, const ColumnS
   return scaled;
 }
 
+Curve before_wall(const Curve& front, double far_end, double cell) {
+  Curve free;
+  for (std::size_t i = 0; i < front.size() && front.value[i] < far_end - cell; ++i) {
+    free.time.push_back(front.time[i]);
+    free.value.push_back(front.value[i]);
+  }
+  return free;
+}
+
 std::optional<double> rms_distance(const Curve& a, const Curve& b, Window window) {
   std::vector<double> times{window.begin, window.end};
   for (const Curve* curve : {&a, &b})

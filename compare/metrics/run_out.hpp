@@ -23,6 +23,10 @@ double collapse_time(const ColumnSize& column);
 // is undefined at t = 0 contributes nothing.
 Curve run_out(const Curve& front_dense, const Curve& front_dilute, const ColumnSize& column);
 
+// The samples before the front [m] first comes within `cell` [m] of the wall at `far_end` [m]: from there on
+// the wall sets it, and a front is known to no better than a cell. All of them where it never does.
+Curve before_wall(const Curve& front, double far_end, double cell);
+
 // Root-mean-square of the difference of two curves over `window` of their abscissa, on the union of their
 // samples, both interpolated linearly; nothing unless both cover the window.
 std::optional<double> rms_distance(const Curve& a, const Curve& b, Window window);

@@ -103,12 +103,15 @@ Json json_curves(const Run& run) {
   return curves;
 }
 
-// The fit of eq (26) to the front, over all but the first tenth of the run.
+// The fit of eq (26) to the front, over all but the first tenth of the run, and at most until the front meets
+// the far wall.
 Json json_power_law(const Run& run) {
-  const Window window{0.1 * run.scene.times.end, run.scene.times.end};
-  const auto fit = power_law(run.curve("front_dense"), window);
+  const Curve front = free_front(run);
+  if (front.empty()) return nullptr;
+  const Window window{0.1 * run.scene.times.end, front.time.back()};
+  const auto fit = power_law(front, window);
   if (!fit) return nullptr;
-  return {{"factor", fit->factor}, {"exponent", fit->exponent}, {"begin", window.begin}};
+  return {{"factor", fit->factor}, {"exponent", fit->exponent}, {"begin", window.begin}, {"end", window.end}};
 }
 
 Json json_scene(const Scene& scene) {

@@ -48,7 +48,7 @@ def base_pressure_plot(results, directory):
 
 
 def floating_run_out_plot(results, directory):
-    """Fig. 8: run-out of floating grains against time, with the fit l = a t^b."""
+    """Fig. 8: run-out of floating grains against time, with the fit l = a t^b up to the far wall."""
     shown = runs_with(results, ("sw", "fw", "sw-2d", "fw-2d"), "front_dense")
     if not shown:
         return []
@@ -60,8 +60,8 @@ def floating_run_out_plot(results, directory):
         fit = results.curves.get(run, {}).get("power_law")
         if fit:
             t, _ = results.curve(run, "front_dense")
-            begin = t[t >= fit["begin"]]
-            axis.plot(begin, fit["factor"] * begin ** fit["exponent"], color=colour, linestyle=":", linewidth=1.0,
+            fitted = t[(t >= fit["begin"]) & (t <= fit["end"])]
+            axis.plot(fitted, fit["factor"] * fitted ** fit["exponent"], color=colour, linestyle=":", linewidth=1.0,
                       label=f"$l = {fit['factor']:.3f}\\, t^{{{fit['exponent']:.3f}}}$")
     return finish(figure, axis, "t [s]", "run-out $l$ [m]", results, shown, directory, "floating-run-out")
 

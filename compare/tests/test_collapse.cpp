@@ -92,6 +92,24 @@ TEST(PowerLaw, FindsItsOwnParameters) {
   EXPECT_FALSE(power_law(curve, {0.0, 0.1}));
 }
 
+// A front that stands at the far wall, or has come back from it, is no run-out.
+TEST(PowerLaw, EndsAtTheFarWall) {
+  Curve curve;
+  for (int i = 1; i <= 50; ++i) {
+    const double free = 0.3 * std::pow(0.1 * i, 0.7), x = i < 45 ? std::fmin(free, 0.8) : 0.7;
+    curve.time.push_back(0.1 * i);
+    curve.value.push_back(x);
+  }
+  const Curve free = before_wall(curve, 0.8, 0.0025);
+  ASSERT_FALSE(free.empty());
+  EXPECT_DOUBLE_EQ(free.time.back(), 4.0);  // 0.3 t^0.7 passes 0.7975 at 4.04
+  const auto fit = power_law(free, {0.5, 5.0});
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->exponent, 0.7, 1e-12);
+  EXPECT_LT(power_law(curve, {0.5, 5.0})->exponent, 0.68);
+  EXPECT_EQ(before_wall(curve, 2.0, 0.0025).size(), curve.size());
+}
+
 BedProfile profile_of(double top, double base, int columns) {
   BedProfile profile;
   const double dx = 2.0 * base / columns;
