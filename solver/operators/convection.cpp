@@ -75,4 +75,18 @@ void convective_acceleration(const Grid& grid, const FaceField& u, int d, const 
   }
 }
 
+void convective_acceleration_limited_in(const Field& mass, double least, const Grid& grid, const FaceField& u,
+                                        int d, const Range& faces, Field& acceleration) {
+  double* out = acceleration.data();
+  const double* m = mass.data();
+  for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
+  const auto one_sided = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+    return upwind_difference(v, c, s, w);
+  };
+  const auto limited_inside = [=](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+    return m[c] > least ? limited_difference(v, c, s, w) : upwind_difference(v, c, s, w);
+  };
+  accumulate(grid, u, d, faces, limited_inside, one_sided, acceleration);
+}
+
 }  // namespace granvof

@@ -13,4 +13,11 @@ namespace granvof {
 void convective_acceleration(const Grid& grid, const FaceField& u, int d, const Range& faces, bool limited,
                              Field& acceleration);
 
+// Limited on faces that carry more than `least` of `mass` (of component d), one-sided elsewhere. For a gas
+// over a liquid: a limiter looks at velocities alone and does not see the interface, and what it hands to a
+// gas a thousand times lighter becomes jets (2 m/s over a liquid at 0.5 m/s) that bound the step. Where the
+// liquid's own faces beside the gas were one-sided too, a dam break lost a third of its accuracy.
+void convective_acceleration_limited_in(const Field& mass, double least, const Grid& grid, const FaceField& u,
+                                        int d, const Range& faces, Field& acceleration);
+
 }  // namespace granvof

@@ -114,11 +114,17 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 void TimeStep::predict(const State& now, double dt) {
   kinematic_viscosity_ = viscosity_.update(boundary_, now.u_c, now.f_s, now.alpha);
   const bool limited = scene_.numerics.solid_flux == SolidFlux::limited;
+  const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double gravity = d == 1 ? -scene_.gravity : 0.0, inv_h = 1.0 / grid_.h[d];
     const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
-    convective_acceleration(grid_, now.u_c, d, fluid, limited, predicted_c_[d]);
+    if (limited && !scene_.liquid_boxes.empty()) {
+      convective_acceleration_limited_in(inertia_.fluid[d], between_gas_and_liquid, grid_, now.u_c, d, fluid,
+                                         predicted_c_[d]);
+    } else {
+      convective_acceleration(grid_, now.u_c, d, fluid, limited, predicted_c_[d]);
+    }
     viscosity_.add_acceleration(now.u_c, inertia_, d, fluid, predicted_c_[d]);
     convective_acceleration(grid_, now.u_s, d, solid, limited, predicted_s_[d]);
     const double *open = aperture_[d].data(), *f = inertia_.f_s[d].data(), *m = inertia_.fluid[d].data();

@@ -210,9 +210,10 @@ std::vector<Key> numerics_keys() {
       key("numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max), "Longest step."),
       key("numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
           "A refused step that would be shorter ends the run; at most dt_max."),
-      choice(
-          "numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
-          "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded."),
+      choice("numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
+             "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded; "
+             "that "
+             "of a gas over a liquid stays of first order."),
       choice(
           "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
           "Contact needs f_s,min in the whole cell (the paper), or grains that fill a part of a cell at the "

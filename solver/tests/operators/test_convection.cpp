@@ -96,6 +96,33 @@ TEST(Convection, MirroredFlowsAccelerateAlike) {
   }
 }
 
+// Limited in the heavy fluid, one-sided in the light one.
+TEST(Convection, LimitedOnlyWhereTheFluidIsHeavy) {
+  const int n = 16, surface = 8;
+  Scene scene = unit_scene(2, n);
+  make_periodic(scene, 0);
+  make_periodic(scene, 1);
+  const Tank s(scene);
+  const double k = 2.0 * std::numbers::pi;
+  const FaceField u = s.faces({[=](const Vec3& x) { return 0.7 + std::sin(k * x[0]) * std::cos(k * x[1]); },
+                               [=](const Vec3& x) { return -0.4 + std::cos(k * x[0]) * std::sin(k * x[1]); },
+                               [](const Vec3&) { return 0.0; }});
+  Field mass(s.grid, 1.0), first(s.grid), second(s.grid), both(s.grid);
+  s.each_cell([&](int, int j, int, std::ptrdiff_t c) { mass[c] = j < surface ? 1000.0 : 1.0; });
+  s.boundary.exchange(mass);
+  for (int d = 0; d < 2; ++d) {
+    convective_acceleration(s.grid, u, d, s.grid.all_cells(), false, first);
+    convective_acceleration(s.grid, u, d, s.grid.all_cells(), true, second);
+    convective_acceleration_limited_in(mass, 31.6, s.grid, u, d, s.grid.all_cells(), both);
+    double apart = 0.0;
+    s.each_cell([&](int, int j, int, std::ptrdiff_t c) {
+      EXPECT_EQ(both[c], j < surface ? second[c] : first[c]) << d << " row " << j;
+      apart = std::fmax(apart, std::fabs(first[c] - second[c]));
+    });
+    EXPECT_GT(apart, 0.1);
+  }
+}
+
 TEST(Convection, NoNewExtremumAtAStep) {
   for (bool limited : {false, true}) {
     for (double carrier : {1.0, -1.0}) {

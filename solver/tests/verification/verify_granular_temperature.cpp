@@ -101,56 +101,66 @@ TEST(SimpleShear, SteadyBalance) {
 // Plane shear of frictionless spheres, e0 = 0.7, by DEM: Vescovi et al., Phys. Fluids 26, 053305 (2014).
 // Walls at -U/2 and U/2, no gravity, periodic in x; mean f_s that of the published profile, which is the
 // start. The published gap is not among the data: 20 diameters here, chosen and not fitted; it bears on Theta
-// above all. 2 x 40 cells, steps of 1e-3 s, means over t = 500 to 1000 shear units H / U. Uniform shear is a
-// steady state of (7) between walls that pass no fluctuation energy, with Theta = (d U / H)^2 / (15 (1 - e)),
-// but an unstable one: the flow finds the published shape, a dense core and two hot dilute layers, by itself.
-// sedFoam asks for rms distances of 0.02 in f_s, 0.03 in u/U, 0.4 of the mean in Theta. All three are
-// expected failures, by name: f_s 0.021, u/U 0.056, Theta 0.65. The published walls are bumpy and heat the
-// grains; here the core is too cold, and, not being tied to the middle, drifts with either wall. Red if they
-// get worse, and if they are met.
+// above all. Uniform shear is a steady state of (7) between walls that pass no fluctuation energy, but an
+// unstable one: the flow finds the published shape, a dense core and two hot dilute layers, by itself.
+//
+// The published profile is odd (u) and even (f_s, Theta) about the middle, and so is the one computed: the
+// upper half of the gap, above a middle at rest. In the whole gap nothing ties the core to the middle, as
+// these walls do not heat the grains and the published, bumpy ones do: it drifts to one of them and sticks
+// there (from t = 20 s on), sooner or later as rounding and the tolerance of the friction solve have it. The
+// half is steady in the mean: means over 10 s between t = 10 and 40 differ by 0.001 in rms f_s, 0.0002 in
+// u/U and 0.035 in Theta, and by as much with a friction solve ten times coarser (1e-5 of the load).
+//
+// 2 x 20 cells, steps of 1e-3 s, time means over t = 10 to 40 s, 500 to 2000 shear units H / U. sedFoam asks
+// for rms distances of 0.02 in f_s (met), 0.03 in u/U, 0.4 of the mean in Theta: the last two are expected
+// failures, by name, u/U 0.039 and Theta 0.42, as the core is too cold and shears too little. Red if they get
+// worse, and if they are met.
 TEST(PlaneShear, ProfilesOfVescoviEtAl) {
-  const double d = 1e-3, height = 0.02, speed = 1.0;
+  const double d = 1e-3, gap = 0.02, speed = 1.0, half = 0.5 * gap;
   const auto f_data = published("vescovi2014/solid_fraction.tsv");
   const auto u_data = published("vescovi2014/velocity.tsv");
   const auto theta_data = published("vescovi2014/granular_temperature.tsv");
   Curve f_profile;
   for (const auto& row : f_data) f_profile.add(row[1], row[0]);
+  const auto start = [&](double y) { return 0.5 * (f_profile(0.5 + y / gap) + f_profile(0.5 - y / gap)); };
   double mean = 0.0;
-  for (int i = 0; i < 1000; ++i) mean += f_profile((i + 0.5) / 1000.0) / 1000.0;
+  for (int i = 0; i < 1000; ++i) mean += start((i + 0.5) / 1000.0 * half) / 1000.0;
   const std::string walls = std::string(periodic_x) +
-                            "bottom.solid = \"no-slip\"\nbottom.velocity = [-0.5, 0]\n"
+                            "bottom.solid = \"no-slip\"\n"
                             "top.solid = \"no-slip\"\ntop.velocity = [0.5, 0]\n";
-  Simulation run(parse_scene(dry(0.01, height, 0.005, walls, mean, 0.7, d, 1e-3), "shear",
+  Simulation run(parse_scene(dry(0.01, half, 0.005, walls, mean, 0.7, d, 1e-3), "shear",
                              std::vector<std::string>{"grid.dy=0.0005"}));
   const int rows = run.grid.cells.n[1];
-  const auto linear = [&](double, double y) { return speed * (y / height - 0.5); };
-  run.set(run.now.f_s, [&](double, double y) { return f_profile(y / height); });
-  for (FaceField* u : {&run.now.u_s, &run.now.u_c, &run.now.u_strain}) run.set_faces((*u)[0], 0, linear);
+  run.set(run.now.f_s, [&](double, double y) { return start(y); });
+  for (FaceField* u : {&run.now.u_s, &run.now.u_c, &run.now.u_strain})
+    run.set_faces((*u)[0], 0, [&](double, double y) { return speed * y / gap; });
   run.now.theta.fill(1e-3);
   run.fill_ghosts();
   run.until(10.0);
   if (HasFatalFailure()) return;
   std::vector<std::array<double, 3>> sum(static_cast<std::size_t>(rows));
-  double weight = 0.0;
-  run.until(20.0, [&] {
-    weight += 1.0;
+  const double begin = run.now.time;
+  double last = begin;
+  run.until(40.0, [&] {
+    const double dt = run.now.time - last;
+    last = run.now.time;
     for (int j = 0; j < rows; ++j) {
       auto& row = sum[static_cast<std::size_t>(j)];
       const std::ptrdiff_t c = run.cell(0, j);
-      row[0] += run.now.f_s[c];
-      row[1] += run.now.u_s[0][c] / speed + 0.5;
-      row[2] += run.now.theta[c] / (speed * speed);
+      row[0] += dt * run.now.f_s[c];
+      row[1] += dt * run.now.u_s[0][c] / speed;
+      row[2] += dt * run.now.theta[c] / (speed * speed);
     }
   });
   if (HasFatalFailure()) return;
-  Curve f, u, theta;
-  for (int j = 0; j < rows; ++j) {
-    const double y = (j + 0.5) / rows;
-    const auto& row = sum[static_cast<std::size_t>(j)];
-    f.add(y, row[0] / weight);
-    u.add(y, row[1] / weight);
-    theta.add(y, row[2] / weight);
-    if (j % 4 == 1)
+  Curve f, u, theta;  // over the whole gap
+  for (int j = -rows; j < rows; ++j) {
+    const double y = 0.5 + 0.5 * (j + 0.5) / rows;
+    const auto& row = sum[static_cast<std::size_t>(j < 0 ? -j - 1 : j)];
+    f.add(y, row[0] / (last - begin));
+    u.add(y, 0.5 + (j < 0 ? -row[1] : row[1]) / (last - begin));
+    theta.add(y, row[2] / (last - begin));
+    if (j >= 0 && j % 4 == 1)
       std::printf("    y/H %.3f f_s %.3f (%.3f) u/U %.3f Theta/U2 %.2e\n", y, f(y), f_profile(y), u(y),
                   theta(y));
   }
@@ -168,16 +178,15 @@ TEST(PlaneShear, ProfilesOfVescoviEtAl) {
   report("rms_u_over_U", rms_u);
   report("rms_theta_over_mean", rms_theta);
   report("f_s_middle", f(0.5));
-  report("f_s_wall", f(0.0));
+  report("f_s_wall", f(1.0));
   report("theta_middle", theta(0.5));
-  report("theta_of_uniform_shear", d * d / (height * height) / (15.0 * 0.3));
+  report("theta_of_uniform_shear", d * d / (gap * gap) / (15.0 * 0.3));
   report("steps", run.steps);
-  EXPECT_GT(rms_f, 0.020);
-  EXPECT_LT(rms_f, 0.030);
+  EXPECT_LT(rms_f, 0.020);
   EXPECT_GT(rms_u, 0.030);
-  EXPECT_LT(rms_u, 0.075);
+  EXPECT_LT(rms_u, 0.045);
   EXPECT_GT(rms_theta, 0.40);
-  EXPECT_LT(rms_theta, 0.80);
+  EXPECT_LT(rms_theta, 0.50);
 }
 
 }  // namespace
