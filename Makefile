@@ -21,7 +21,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build verify test reference plots charts stability nightly bench format tidy sanitize
+.PHONY: help setup build verify test reference plots charts stability runout nightly bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -56,6 +56,11 @@ charts: setup  ## error against cost of every method (compare/study.toml): runs 
 	ci/build --programs release
 	$(RELEASE)/compare/granvof-compare charts --cache $(OUT)/study --out $(OUT)/charts $(if $(SCENE),--scene $(SCENE))
 	$(PYTHON) compare/report/charts.py --charts $(OUT)/charts
+
+runout: setup  ## why the run-out runs ahead late (compare/late-run-out.toml): s1, s2, dry-column, for the report after `make charts`
+	ci/build --programs release
+	for scene in s1 s2 dry-column; do $(RELEASE)/compare/granvof-compare ablate cases/$$scene.toml \
+	  --study compare/late-run-out.toml --cache $(OUT)/study --out $(OUT)/ablate/$$scene-run-out || exit; done
 
 stability: setup  ## where the methods hold and fail, by bisection (half an hour); out/stability, drawn by `make plots`
 	ci/build --programs release

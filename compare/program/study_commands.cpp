@@ -107,6 +107,7 @@ struct StudyCommands::Options {
     command.add_flag("--any-version", runner.any_version,
                      "take runs of the same case and overrides by other versions of the program too");
     command.add_option("--study", study, "methods and parts of the model")->capture_default_str();
+    command.add_option("--records", records, "recorded DEM-VOF results")->capture_default_str();
     command.add_option("--out", out, "where the results go");
   }
   void add_case(CLI::App& command) {
@@ -123,7 +124,7 @@ struct StudyCommands::Options {
     const auto metrics = metrics_of_scene(read_table(checks), scene.name);
     CachedRunner made(runner);
     const AblateReport report =
-        granvof::compare::ablate(case_file, set, chosen_parts(read, parts), metrics, made);
+        granvof::compare::ablate(case_file, set, chosen_parts(read, parts), metrics, records, made);
     const fs::path directory = out.empty() ? fs::path("out/ablate") / scene.name : out;
     write(directory, "ablate.csv", ablate_csv(report));
     write(directory, "ablate.json", ablate_json(report));
@@ -209,8 +210,6 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
       ->add_option("--against", options_->against,
                    "reference: DEM, theory or finest (default: the first of these that there is)")
       ->check(CLI::IsMember(references));
-  options_->advise->add_option("--records", options_->records, "recorded DEM-VOF results")
-      ->capture_default_str();
 
   options_->charts =
       app.add_subcommand("charts", "error against cost: all methods on all grids of the study");
@@ -218,8 +217,6 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
   options_->charts->add_option("--scene", options_->scenes, "only this chart (may be given again)")
       ->allow_extra_args(false);
   options_->charts->add_option("--cases", options_->cases, "case files")->capture_default_str();
-  options_->charts->add_option("--records", options_->records, "recorded DEM-VOF results")
-      ->capture_default_str();
 }
 
 bool StudyCommands::parsed() const {

@@ -177,12 +177,13 @@ def ablation_table(study):
         value = effect["value"] if full else effect["change"]
         return "-" if value is None else f"{value:{'' if full else '+'}.3g}{' *' if effect['beyond'] else ''}"
 
-    rows = []
+    references = [metric.get("reference") for metric in study["metrics"]]
+    rows = [["reference", *("-" if value is None else f"{value:.3g}" for value in references), "-"]]
     for index, row in enumerate(row for row in study["rows"] if row["applies"]):
         cells = [cell(effect, index == 0) for effect in row["effects"]] or ["failed"] * len(study["metrics"])
         rows.append([row["part"], *cells, row["core_seconds"]])
     setting = " ".join([study["scene"], *study["set"]])
-    return {"caption": f"{setting}: each part of the model removed in turn, change of each metric against the full model; "
+    return {"caption": f"{setting}: each part of the model removed or changed in turn, change of each metric against the full model; "
                        f"* beyond its tolerance (granvof {study['version']}, case {study['case_hash'][:8]}, {study['host']})",
             "columns": ["part"] + [metric["metric"] for metric in study["metrics"]] + ["core-s"], "rows": rows}
 

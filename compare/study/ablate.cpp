@@ -9,11 +9,14 @@
 
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
+#include "compare/input/records.hpp"
 #include "compare/output/write.hpp"
 #include "solver/scene/load_scene.hpp"
 
 namespace granvof::compare {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double longest_gate = 0.1;  // in times sqrt(h0 / g), that a gate may stand under a lid
 
@@ -64,6 +67,20 @@ std::optional<double> measure(const Check& check, const Run& run) {
   const FindRun none = [](std::string_view) -> const Run* { return nullptr; };
   const Measured measured = find_metric(check.metric)->function(run, check.parameters, none);
   return measured.value && std::isfinite(*measured.value) ? measured.value : std::nullopt;
+}
+
+// What the row holds the metric to; nothing for a bound, or where no record of the scene can be read.
+std::optional<double> reference_of(const Check& check, const Run& run, const fs::path& records) {
+  if (check.relation != Relation::equal) return std::nullopt;
+  if (!check.reference.record) return bound_of(check, run);
+  double sum = 0.0;
+  int count = 0;
+  for (const LoadedRun& variant : load_records(records, *check.reference.record, run.scene)) {
+    const auto value = variant.run ? measure(check, *variant.run) : std::nullopt;
+    sum += value.value_or(0.0);
+    count += value ? 1 : 0;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 Effect effect_of(const AblatedMetric& metric, const Run& run) {
@@ -121,8 +138,9 @@ std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene
   return chosen;
 }
 
-AblateReport ablate(const std::filesystem::path& case_file, const std::vector<std::string>& set,
-                    const std::vector<Part>& parts, const std::vector<Check>& checks, Runner& runner) {
+AblateReport ablate(const fs::path& case_file, const std::vector<std::string>& set,
+                    const std::vector<Part>& parts, const std::vector<Check>& checks, const fs::path& records,
+                    Runner& runner) {
   if (checks.empty())
     throw std::runtime_error(
         fmt::format("{}: the table of checks has no metric of this scene", case_file.string()));
@@ -134,7 +152,8 @@ AblateReport ablate(const std::filesystem::path& case_file, const std::vector<st
   if (!full.facts->commit.empty()) report.version += fmt::format(" ({})", full.facts->commit);
   for (const Check& check : checks)
     report.metrics.push_back(
-        {check, std::string(find_metric(check.metric)->unit), measure(check, *full.run)});
+        {check, std::string(find_metric(check.metric)->unit), measure(check, *full.run),
+         reference_of(check, *full.run, records)});
   report.rows.push_back(row_of("full model", full, report.metrics));
   report.rows.back().set = set;
   for (const Part& part : parts) {

@@ -17,6 +17,7 @@ struct AblatedMetric {
   Check check;  // the row of the table of checks that names the metric and its tolerance
   std::string unit;
   std::optional<double> full;
+  std::optional<double> reference;  // the row's; of records their mean; none where the row only bounds
 };
 
 // One metric without a part.
@@ -57,10 +58,11 @@ std::vector<std::string> overrides_of(const Part& part, const Scene& scene);
 // a second run.
 std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene);
 
-// Runs the case with `set`, then with each part removed. Throws std::runtime_error where the full model does
-// not run or `checks` is empty.
+// Runs the case with `set`, then with each part removed. References are taken from the rows, those recorded
+// from `records`. Throws std::runtime_error where the full model does not run or `checks` is empty.
 AblateReport ablate(const std::filesystem::path& case_file, const std::vector<std::string>& set,
-                    const std::vector<Part>& parts, const std::vector<Check>& checks, Runner& runner);
+                    const std::vector<Part>& parts, const std::vector<Check>& checks,
+                    const std::filesystem::path& records, Runner& runner);
 
 std::string ablate_text(const AblateReport& report);
 // Columns: part,metric,value,change,unit,tolerance,beyond,core_seconds,core_s_per_s,work_units_per_s,failure.

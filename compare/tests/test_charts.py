@@ -93,7 +93,7 @@ def test_the_report_shows_charts_and_ablations(tmp_path):
     (tmp_path / "charts").mkdir()
     (tmp_path / "charts/points.json").write_text(json.dumps(study()))
     ablated = {"scene": "s1", "set": [], "version": "0.1.0", "case_hash": "0123456789abcdef", "host": "A Processor",
-               "metrics": [{"metric": "run_out@10", "unit": "-", "tolerance": "0.05 [-]", "full": 2.2}],
+               "metrics": [{"metric": "run_out@10", "unit": "-", "tolerance": "0.05 [-]", "full": 2.2, "reference": 1.7}],
                "rows": [{"part": part, "set": [], "about": "", "applies": applies, "failure": failure, "dispensable": False,
                          "core_seconds": 2.0, "core_s_per_s": 3.0, "work_units_per_s": 30.0, "effects": effects}
                         for part, applies, failure, effects in [
@@ -110,4 +110,4 @@ def test_the_report_shows_charts_and_ablations(tmp_path):
     assert [figure["name"] for figure in shown.figures] == ["charts-error-cost-s1"]
     assert "s1: for 10 % use <first>" in shown.text
     assert any("left out: second on 0.625 mm" in text for text in shown.text)
-    assert shown.tables[0]["rows"] == [["full model", "2.2", 2.0], ["no LES", "+0.3 *", 2.0], ["Theta off", "failed", 2.0]]
+    assert shown.tables[0]["rows"] == [["reference", "1.7", "-"], ["full model", "2.2", 2.0], ["no LES", "+0.3 *", 2.0], ["Theta off", "failed", 2.0]]

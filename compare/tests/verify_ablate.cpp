@@ -53,6 +53,7 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   const fs::path root = fs::path(testing::TempDir()) / "ablate";
   fs::remove_all(root);
   const fs::path file = fs::path(GRANVOF_CASES_DIR) / "canary.toml";
+  const fs::path records = fs::path(GRANVOF_CASES_DIR) / "../reference/results";
   const std::vector<std::string> set{"grid.dx=0.005", "time.end=2", "output.field_times=[0]",
                                      "gate.speed=20"};
   RunnerOptions options{GRANVOF_PROGRAM, root};
@@ -62,8 +63,11 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   const auto metrics = metrics_of_scene(parse_table(checks, "checks"), "canary");
   ASSERT_EQ(metrics.size(), 2u);
   const auto parts = parse_study(study, "study").parts;
-  const AblateReport report = ablate(file, set, parts, metrics, runner);
+  const AblateReport report = ablate(file, set, parts, metrics, records, runner);
   ASSERT_EQ(report.rows.size(), 5u);
+
+  EXPECT_NEAR(report.metrics[0].reference.value_or(0.0), 0.2, 0.15);  // mean of the recorded seeds
+  EXPECT_EQ(report.metrics[1].reference, 0.0);
 
   const Ablation& friction = report.rows[1];
   ASSERT_TRUE(friction.failure.empty()) << friction.failure;
