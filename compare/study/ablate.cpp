@@ -151,9 +151,8 @@ AblateReport ablate(const fs::path& case_file, const std::vector<std::string>& s
   AblateReport report{scene.name, full.facts->version, full.facts->case_hash, full.facts->host, set, {}, {}};
   if (!full.facts->commit.empty()) report.version += fmt::format(" ({})", full.facts->commit);
   for (const Check& check : checks)
-    report.metrics.push_back(
-        {check, std::string(find_metric(check.metric)->unit), measure(check, *full.run),
-         reference_of(check, *full.run, records)});
+    report.metrics.push_back({check, std::string(find_metric(check.metric)->unit), measure(check, *full.run),
+                              reference_of(check, *full.run, records)});
   report.rows.push_back(row_of("full model", full, report.metrics));
   report.rows.back().set = set;
   for (const Part& part : parts) {

@@ -28,8 +28,8 @@ std::string state_of(const Ablation& row, const AblateReport& report) {
 
 std::string ablate_text(const AblateReport& report) {
   const Ablation& full = report.rows.front();
-  std::string text = fmt::format("{} {}: each part of the model removed or changed in turn ({})\n", report.scene,
-                                 fmt::join(report.set, " "), report.version);
+  std::string text = fmt::format("{} {}: each part of the model removed or changed in turn ({})\n",
+                                 report.scene, fmt::join(report.set, " "), report.version);
   text += fmt::format("  {:<26} {:>12} {:>12} {:>10} {:<6}", "metric", "reference", "full model", "tolerance",
                       "unit");
   for (std::size_t n = 1; n < report.rows.size(); ++n)
@@ -37,8 +37,9 @@ std::string ablate_text(const AblateReport& report) {
   for (std::size_t i = 0; i < report.metrics.size(); ++i) {
     const AblatedMetric& metric = report.metrics[i];
     const auto number = [](const std::optional<double>& v) { return v ? fmt::format("{:.5g}", *v) : "-"; };
-    text += fmt::format("\n  {:<26} {:>12} {:>12} {:>10.3g} {:<6}", metric_label(metric.check),
-                        number(metric.reference), number(metric.full), full.effects[i].tolerance, metric.unit);
+    text +=
+        fmt::format("\n  {:<26} {:>12} {:>12} {:>10.3g} {:<6}", metric_label(metric.check),
+                    number(metric.reference), number(metric.full), full.effects[i].tolerance, metric.unit);
     for (std::size_t n = 1; n < report.rows.size(); ++n) {
       const Ablation& row = report.rows[n];
       if (!row.applies) continue;
@@ -49,7 +50,8 @@ std::string ablate_text(const AblateReport& report) {
       text += fmt::format(" {:>17}", cell);
     }
   }
-  text += fmt::format("\n  {:<26} {:>12} {:>12.4g} {:>10} {:<6}", "cost", "", full.core_seconds, "", "core-s");
+  text +=
+      fmt::format("\n  {:<26} {:>12} {:>12.4g} {:>10} {:<6}", "cost", "", full.core_seconds, "", "core-s");
   for (std::size_t n = 1; n < report.rows.size(); ++n)
     if (report.rows[n].applies)
       text += fmt::format(
