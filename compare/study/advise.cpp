@@ -59,23 +59,31 @@ class Walk {
       return step.trial.cost <= cheapest.cost * (1.0 + std::max(cheapest.noise, step.trial.noise));
     });
     std::stable_sort(dearer, found.end(), by_cost);
+    std::stable_partition(found.begin(), found.end(), [&](const Step& step) {
+      return !bench_.is_reference(finer(step.configuration, grid));
+    });
     return found;
+  }
+
+  Configuration finer(Configuration configuration, std::size_t grid) const {
+    configuration.cell = cells_[grid + 1];
+    return configuration;
   }
 
   // Takes `candidate` as the answer if the next finer grid bears it out.
   bool confirm(const Step& candidate, std::size_t grid) {
-    Configuration finer = candidate.configuration;
-    finer.cell = cells_[grid + 1];
-    Step& step = attempt(finer);
-    const auto moved = bench_.distance(candidate.configuration, finer);
+    const Configuration witness = finer(candidate.configuration, grid);
+    Step& step = attempt(witness);
+    const auto moved = bench_.distance(candidate.configuration, witness);
     const std::string name = name_of(candidate.configuration);
     if (!step.trial.error || !moved) {
       step.remark = fmt::format("does not confirm {}: {}", name, step.trial.failure);
       return false;
     }
     const bool confirmed = meets(step.trial) && *moved <= tolerance_;
-    step.remark = fmt::format("{} {}, {:.2g} % from it", confirmed ? "confirms" : "does not confirm", name,
-                              100.0 * *moved);
+    step.remark = fmt::format("{} {}, {:.2g} % from it{}", confirmed ? "confirms" : "does not confirm", name,
+                              100.0 * *moved,
+                              bench_.is_reference(witness) ? "; not independent: it is the reference" : "");
     if (!confirmed) return false;
     advice_.chosen = candidate;
     advice_.confirmation = step;

@@ -29,6 +29,8 @@ class Bench {
   virtual Trial trial(const Configuration& configuration) = 0;
   // Relative distance of two configurations from each other [-]; nothing where one did not run.
   virtual std::optional<double> distance(const Configuration& a, const Configuration& b) = 0;
+  // Whether results are held against this very run.
+  virtual bool is_reference(const Configuration& configuration) = 0;
   // The overrides of a part in this scene; nothing where it does not apply.
   virtual std::optional<std::vector<std::string>> overrides(const Part& part) = 0;
 };
@@ -48,11 +50,12 @@ struct Advice {
 
 // Walks `cells` (large to small) and, on each, all methods. A configuration within `tolerance` is confirmed
 // on the next finer cells: there the error must be within the tolerance too, and the two no further apart
-// than that; what met it by accident on a coarse grid fails this, and the walk goes on. Of what is confirmed
-// on a grid the cheapest is taken (of those that cost the same within their noise the first of `methods`).
-// Then parts of the model go: each is tried alone on the next coarser cells (the same, if there are none),
-// the cheapest without it first; it may go where it moves the result by at most a quarter of the tolerance
-// and saves at least 10 % of the cost, and more than the noise of both costs. Those go together on the chosen
+// than that (where the next finer run is the reference itself this is no independent witness, and taken
+// last); what met it by accident on a coarse grid fails this, and the walk goes on. Of what is confirmed on a
+// grid the cheapest is taken (of those that cost the same within their noise the first of `methods`). Then
+// parts of the model go: each is tried alone on the next coarser cells (the same, if there are none), the
+// cheapest without it first; it may go where it moves the result by at most a quarter of the tolerance and
+// saves at least 10 % of the cost, and more than the noise of both costs. Those go together on the chosen
 // grid, and the one that moved most stays until the rest meets the tolerance and is confirmed. The smallest
 // cells serve to confirm only.
 Advice advise(const std::vector<double>& cells, const std::vector<Method>& methods,

@@ -14,8 +14,8 @@ namespace {
 
 class SceneBench : public Bench {
  public:
-  SceneBench(const AdviseInput& input, const Scene& scene, Runner& runner)
-      : input_(input), scene_(scene), runner_(runner) {}
+  SceneBench(const AdviseInput& input, const Method& reference, const Scene& scene, Runner& runner)
+      : input_(input), reference_(reference), scene_(scene), runner_(runner) {}
 
   void aim_at(const Target& target) { target_ = &target; }
 
@@ -51,6 +51,11 @@ class SceneBench : public Bench {
                              observe(input_.quantity, *second.run));
   }
 
+  bool is_reference(const Configuration& configuration) override {
+    return target_->kind == kind_of_own && configuration.cell == input_.cells.back() &&
+           configuration.method.name == reference_.name && configuration.without.empty();
+  }
+
   std::optional<std::vector<std::string>> overrides(const Part& part) override {
     try {
       return overrides_of(part, scene_);
@@ -61,6 +66,7 @@ class SceneBench : public Bench {
 
  private:
   const AdviseInput& input_;
+  const Method& reference_;  // of our own finest grid
   const Scene& scene_;
   Runner& runner_;
   const Target* target_ = nullptr;
@@ -102,12 +108,10 @@ const Method& reference_method(const AdviseInput& input, const std::vector<Metho
   return methods.front();
 }
 
-Target choose_target(const AdviseInput& input, const std::vector<Method>& methods, const Scene& scene,
-                     SceneBench& bench) {
+Target choose_target(const AdviseInput& input, const Method& method, const Scene& scene, SceneBench& bench) {
   const auto wanted = [&](Against kind) { return input.against.value_or(kind) == kind; };
   Target dem = dem_target(input.quantity, scene, input.records, scene.name);
   if (wanted(Against::dem) && dem.observed.defined()) return dem;
-  const Method& method = reference_method(input, methods);
   const Outcome coarse = bench.outcome({input.cells.front(), method, {}});
   if (coarse.run && (wanted(Against::theory) || wanted(Against::published))) {
     auto known = known_target(input, *coarse.run);
@@ -129,8 +133,9 @@ Target choose_target(const AdviseInput& input, const std::vector<Method>& method
 AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& methods,
                           const std::vector<Part>& parts, Runner& runner) {
   const Scene scene = load_scene(input.case_file, input.set);
-  SceneBench bench(input, scene, runner);
-  AdviseReport report{scene.name, "", input, choose_target(input, methods, scene, bench), {}, {}};
+  const Method& reference = reference_method(input, methods);
+  SceneBench bench(input, reference, scene, runner);
+  AdviseReport report{scene.name, "", input, choose_target(input, reference, scene, bench), {}, {}};
   bench.aim_at(report.target);
   std::vector<Method> tried = methods;
   if (report.target.kind == kind_of_own)

@@ -23,6 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* note_file = "study.json";  // beside run.json: what the run was made for, and its costs
 constexpr int timings = 3;
+constexpr double noise_of_one =
+    0.1;                      // of a cost that was timed once: what the same run differs by on a busy machine
 constexpr int bad_input = 2;  // exit code of granvof
 
 // FNV-1a: names a directory; what is in it is checked against the resolved case itself.
@@ -73,7 +75,8 @@ Outcome outcome_of(const fs::path& directory, const nlohmann::json& note, const 
   outcome.repeats = static_cast<int>(costs.size());
   if (!costs.empty()) outcome.core_seconds = *std::min_element(costs.begin(), costs.end());
   outcome.work_unit_seconds = note.value("work_unit_seconds", 0.0);
-  outcome.noise = std::max(spread(costs), note.value("work_unit_spread", 0.0));
+  outcome.noise =
+      std::max({spread(costs), note.value("work_unit_spread", 0.0), costs.size() > 1 ? 0.0 : noise_of_one});
   if (outcome.facts) outcome.simulated_seconds = outcome.facts->number("simulated_time").value_or(0.0);
   return outcome;
 }

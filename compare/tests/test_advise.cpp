@@ -41,6 +41,8 @@ class FakeBench : public Bench {
     if (!first || !second) return std::nullopt;
     return std::abs(*first - *second);
   }
+  std::function<bool(const Configuration&)> reference = [](const Configuration&) { return false; };
+  bool is_reference(const Configuration& c) override { return reference(c); }
   std::optional<std::vector<std::string>> overrides(const Part& part) override {
     if (part.form) return std::nullopt;
     return part.set;
@@ -129,6 +131,20 @@ TEST(Advise, OfMethodsThatCostTheSameTheFirstIsTaken) {
   EXPECT_EQ(name_of(advise(cells, {sharp, plain}, {}, 0.12, bench).chosen->configuration), "sharp on 5 mm");
   bench.noise = 0.4;
   EXPECT_EQ(name_of(advise(cells, {sharp, plain}, {}, 0.12, bench).chosen->configuration), "plain on 5 mm");
+}
+
+// Held against our own finest grid, the method of that grid would be its own witness.
+TEST(Advise, TheReferenceItselfIsTheLastWitness) {
+  FakeBench bench;
+  bench.result = first_order;
+  bench.reference = [](const Configuration& c) { return c.method.name == "plain" && c.cell == 0.000625; };
+  const Method same{"same", {}, "", std::nullopt};
+  const Advice other = advise(cells, {plain, same}, {}, 0.025 + 1e-9, bench);
+  EXPECT_EQ(name_of(other.chosen->configuration), "same on 1.25 mm");
+  const Advice alone = advise(cells, {plain}, {}, 0.025 + 1e-9, bench);
+  EXPECT_EQ(name_of(alone.chosen->configuration), "plain on 1.25 mm");
+  EXPECT_NE(alone.confirmation->remark.find("not independent"), std::string::npos)
+      << alone.confirmation->remark;
 }
 
 TEST(Advise, ASavingWithinTheNoiseOfTheCostIsNone) {
