@@ -88,7 +88,7 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   EXPECT_NE(report.rows[4].failure.find("model.colour"), std::string::npos) << report.rows[4].failure;
 
   // A gate that stands for a while shuts its side of the tank under a lid: that is another release.
-  const AblateReport slow = ablate(file, {set.begin(), set.end() - 1}, {parts[2]}, metrics, runner);
+  const AblateReport slow = ablate(file, {set.begin(), set.end() - 1}, {parts[2]}, metrics, records, runner);
   EXPECT_FALSE(slow.rows[1].applies);
   EXPECT_NE(slow.rows[1].failure.find("gate"), std::string::npos) << slow.rows[1].failure;
 
