@@ -168,6 +168,19 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
   return outcome;
 }
 
+fs::path CachedRunner::directory_of(const Scene& scene) const {
+  return options_.cache / scene.name / short_hash(scene.resolved + "\n" + identity_);
+}
+
+bool CachedRunner::has(const Job& job) {
+  try {
+    const Scene scene = load_scene(job.case_file, job.set);
+    return kept(job, scene, directory_of(scene)).has_value();
+  } catch (const CaseError&) {
+    return true;
+  }
+}
+
 Outcome CachedRunner::run(const Job& job) {
   Scene scene;
   try {
@@ -178,7 +191,7 @@ Outcome CachedRunner::run(const Job& job) {
     refused.refused = true;
     return refused;
   }
-  const fs::path directory = options_.cache / scene.name / short_hash(scene.resolved + "\n" + identity_);
+  const fs::path directory = directory_of(scene);
   if (auto found = kept(job, scene, directory)) {
     found->kept = true;
     return *found;

@@ -40,6 +40,8 @@ class Runner {
  public:
   virtual ~Runner() = default;
   virtual Outcome run(const Job& job) = 0;
+  // Whether run() would give back a kept run, or refuse the case, without starting one.
+  virtual bool has(const Job& job) = 0;
 };
 
 struct RunnerOptions {
@@ -59,9 +61,11 @@ class CachedRunner : public Runner {
  public:
   explicit CachedRunner(RunnerOptions options);
   Outcome run(const Job& job) override;
+  bool has(const Job& job) override;
   const std::string& version() const { return version_; }
 
  private:
+  std::filesystem::path directory_of(const Scene& scene) const;
   std::optional<Outcome> kept(const Job& job, const Scene& scene,
                               const std::filesystem::path& directory) const;
   Outcome make(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;

@@ -65,6 +65,8 @@ TEST_F(StudyRunner, AFailedRunSaysWhyAndWhatItCost) {
   EXPECT_EQ(failed.failure, "exit code 1: step collapse at t = 0.5 s");
   EXPECT_DOUBLE_EQ(failed.core_seconds, 3.5);
   EXPECT_DOUBLE_EQ(failed.cost(), 7.0);
+  EXPECT_TRUE(made.has(job_));
+  EXPECT_FALSE(made.has({job_.case_file, {"time.end=3"}}));
   const Outcome again = made.run(job_);
   EXPECT_TRUE(again.kept);
   EXPECT_EQ(again.failure, failed.failure);
