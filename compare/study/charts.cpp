@@ -137,6 +137,16 @@ ChartPoint point_of(const Method& method, double cell, const std::vector<std::st
   return point;
 }
 
+bool stays_within(const ChartResult& result, const PanelResult& panel, std::size_t point, double tolerance) {
+  const ChartPoint& one = result.points[point];
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const ChartPoint& other = result.points[i];
+    if (other.method != one.method || other.cell >= one.cell) continue;
+    if (!other.failure.empty() || panel.errors[i].value_or(0.0) > tolerance) return false;
+  }
+  return true;
+}
+
 std::string advice(const ChartResult& result, const PanelResult& panel, double tolerance) {
   if (panel.target.floor > tolerance)
     return fmt::format("nothing can be told (the reference itself is uncertain by {:.2g} %)",
@@ -144,7 +154,8 @@ std::string advice(const ChartResult& result, const PanelResult& panel, double t
   std::vector<WorkPrecision> points;
   points.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
-    points.push_back({result.points[i].cost, panel.errors[i]});
+    points.push_back(
+        {result.points[i].cost, stays_within(result, panel, i, tolerance) ? panel.errors[i] : std::nullopt});
   const auto best = cheapest_within(points, tolerance);
   if (!best) return "none of these is enough";
   const ChartPoint& point = result.points[*best];

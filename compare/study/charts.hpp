@@ -55,7 +55,9 @@ struct ChartResult {
 ChartResult make_chart(const Chart& chart, const Study& study, const std::filesystem::path& cases,
                        const std::filesystem::path& records, Runner& runner);
 
-// One line a panel: "for 10 % / 5 % / 2 % use this, it costs that, DEM-VOF costs so many times more".
+// One line a panel: "for 10 % / 5 % / 2 % use this, it costs that, DEM-VOF costs so many times more". What
+// meets a tolerance on a grid and misses it, or fails, on a finer one has met it by accident, and is not
+// named.
 std::vector<std::string> recommendations(const ChartResult& result);
 
 std::string charts_text(const std::vector<ChartResult>& results);
