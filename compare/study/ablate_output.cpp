@@ -64,7 +64,7 @@ std::string ablate_text(const AblateReport& report) {
 }
 
 std::string ablate_csv(const AblateReport& report) {
-  const auto quoted = [](std::string text) {
+  const auto quoted = [](const std::string& text) {
     std::string safe = "\"";
     for (const char c : text) safe += c == '"' ? std::string("\"\"") : std::string(1, c);
     return safe + "\"";
