@@ -126,6 +126,20 @@ TEST(ShippedCases, AreThoseOfThePaperAndTheLadder) {
   }
 }
 
+// What `granvof-compare advise` found, beside the cases they are made of.
+TEST(ShippedCases, AdvisedOnesLoad) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(GRANVOF_CASES_DIR "/advised")) {
+    const Scene scene = load_scene(entry.path());
+    EXPECT_EQ(scene.name, entry.path().stem().string());
+    EXPECT_NE(scene.resolved, load_scene(scene.file.parent_path() / ".." /
+                                         (scene.name.substr(0, scene.name.rfind("-advised")) + ".toml"))
+                                  .resolved);
+    ++count;
+  }
+  EXPECT_GE(count, 1);
+}
+
 // Table 1 and 2 of the paper, written down here a second time on purpose.
 TEST(ShippedCases, KeepThePapersNumbers) {
   const std::string cases = GRANVOF_CASES_DIR;
