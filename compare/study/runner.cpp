@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <stdexcept>
@@ -24,8 +25,9 @@ namespace fs = std::filesystem;
 constexpr const char* note_file = "study.json";  // beside run.json: what the run was made for, and its costs
 constexpr int timings = 3;
 constexpr double noise_of_one =
-    0.1;                      // of a cost that was timed once: what the same run differs by on a busy machine
-constexpr int bad_input = 2;  // exit code of granvof
+    0.1;  // of a cost that was timed once: what the same run differs by on a busy machine
+constexpr const char* stopped_from_outside = "stopped by a signal";  // last words of granvof then
+constexpr int bad_input = 2;                                         // exit code of granvof
 
 // FNV-1a: names a directory; what is in it is checked against the resolved case itself.
 std::string short_hash(const std::string& text) {
@@ -145,6 +147,10 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
       failure = fmt::format("ended after {:g} s of wall-clock time", options_.timeout);
     else if (ended.code == bad_input)  // nothing was run, and the case is not what is wrong
       throw std::runtime_error(last_line(log));
+    else if (ended.code == 128 + SIGTERM || ended.code == 128 + SIGINT ||
+             last_line(log).find(stopped_from_outside) != std::string::npos)
+      throw std::runtime_error(
+          fmt::format("the run was stopped from outside, and says nothing: {}", last_line(log)));
     else if (ended.code != 0)
       failure = fmt::format("exit code {}: {}", ended.code, last_line(log));
     std::optional<double> spent;

@@ -54,6 +54,7 @@ struct RunnerOptions {
   bool progress = true;      // a line on stderr for every run that is made
 };
 
+// A run that somebody stopped is no result: run() throws.
 // A job is identified by its resolved case and the version of the program (and, of a version with uncommitted
 // changes, by the program file's time); a run that ended, well or not, is not made again, but for one that
 // was ended by a shorter time limit than now. Throws std::runtime_error where the program cannot be started.

@@ -89,6 +89,21 @@ TEST_F(StudyRunner, ARunBeyondItsTimeIsEndedAndMadeAgainOnlyForALongerOne) {
   EXPECT_EQ(calls(), 2);
 }
 
+// Somebody ended it: no point of a chart, and not kept.
+TEST_F(StudyRunner, ARunThatWasStoppedFromOutsideIsNoResult) {
+  for (const char* body :
+       {"echo 's1: stopped by a signal; last good state at t = 1 s' >&2; exit 1", "kill -TERM $$"}) {
+    CachedRunner made = runner(body);
+    EXPECT_THROW(made.run(job_), std::runtime_error) << body;
+    EXPECT_FALSE(made.has(job_)) << body;
+  }
+}
+
+TEST_F(StudyRunner, ARunThatCrashesHasFailed) {
+  const Outcome crashed = runner("kill -SEGV $$").run(job_);
+  EXPECT_NE(crashed.failure.find("exit code 139"), std::string::npos) << crashed.failure;
+}
+
 TEST_F(StudyRunner, ARunThatLeavesNothingHasFailed) {
   const Outcome nothing = runner("exit 0").run(job_);
   EXPECT_FALSE(nothing.run);
