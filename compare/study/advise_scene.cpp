@@ -115,7 +115,10 @@ Target choose_target(const AdviseInput& input, const Method& method, const Scene
   const Outcome coarse = bench.outcome({input.cells.front(), method, {}});
   if (coarse.run && (wanted(Against::theory) || wanted(Against::published))) {
     auto known = known_target(input, *coarse.run);
-    if (known && known->observed.defined()) return *known;
+    if (known && known->observed.defined()) {
+      known->cost = dem.cost;  // what the advice is set against, whatever the reference is
+      return *known;
+    }
   }
   if (!wanted(Against::finest)) throw std::runtime_error(fmt::format("no such reference: {}", dem.note));
   const Outcome finest = bench.outcome({input.cells.back(), method, {}});
@@ -125,6 +128,7 @@ Target choose_target(const AdviseInput& input, const Method& method, const Scene
   const Outcome next = bench.outcome({input.cells[input.cells.size() - 2], method, {}});
   Target own = own_target(input.quantity, *finest.run, method.name, next.run ? &*next.run : nullptr);
   if (!own.observed.defined()) throw std::runtime_error(fmt::format("no reference: {}", own.note));
+  own.cost = dem.cost;
   return own;
 }
 

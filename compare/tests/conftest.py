@@ -104,5 +104,5 @@ def reported(tmp_path_factory):
     from report import report
 
     directory = make_comparison(tmp_path_factory.mktemp("reported"))
-    assert report.main(["--verify", str(directory)]) == 0
+    assert report.main(["--verify", str(directory), "--kept", str(directory / "nothing")]) == 0
     return directory
