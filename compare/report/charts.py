@@ -76,7 +76,7 @@ def shown_at(panel, error):
 def draw_panel(axis, chart, panel, looks):
     axis.set_xscale("log")
     axis.set_yscale("log")
-    drawn = [shown_at(panel, error) for error in panel["errors"] if error is not None]
+    drawn = [shown_at(panel, error) for error in panel["errors"] + panel.get("other_errors", []) if error is not None]
     for name, how in looks.items():
         shown = sorted((point["core_s_per_s"], shown_at(panel, error), point["cell"])
                        for point, error in zip(chart["points"], panel["errors"])
