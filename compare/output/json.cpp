@@ -94,7 +94,7 @@ Json json_curves(const Run& run) {
     const auto mean = time_mean(clip(centre, {0.5 * run.scene.times.end, run.scene.times.end}));
     if (mean) add((std::string(column) + "_deviation").c_str(), shifted(centre, -*mean));
   }
-  for (const char* column : {"front_dense", "front_dilute", "y_c", "y_solid_mean", "interface_height",
+  for (const char* column : {"front_dense", "front_quantile", "y_c", "y_solid_mean", "interface_height",
                              "bed_height_equivalent", "liquid_front", "liquid_height_left"})
     add(column, run.curve(column));
   if (!run.scene.bed) add("scaled_liquid_front", scaled_liquid_front(run));

@@ -14,7 +14,7 @@ def water_entry_plot(results, directory):
 def dambreak_beads_plot(results, directory):
     """Fronts of water and beads in a dam break with beads."""
     return curves_plot(results, directory, "dambreak-beads", "front [mm]",
-                       (("liquid_front", "water"), ("front_dilute", "beads")))
+                       (("liquid_front", "water"), ("front_quantile", "99.5 % of the beads")))
 
 
 def curves_plot(results, directory, scene, ylabel, curves):

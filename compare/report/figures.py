@@ -26,7 +26,7 @@ CAPTIONS = {
     "viscous-collapse": "Collapse in a viscous liquid: front and excess pore pressure at the base. The model has no viscous "
                         "dilatancy: its sign is what can be compared, not its time scale.",
     "water-entry": "Beads falling into water: height of their centre of mass, and of the surface they raise.",
-    "dambreak-beads": "Dam break with beads: fronts of the water and of the beads (f_s = 0.30).",
+    "dambreak-beads": "Dam break with beads: front of the water, and where 99.5 % of the beads have not yet passed.",
 }
 
 
