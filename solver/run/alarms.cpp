@@ -64,8 +64,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("elastic start", start_.elastic / (start_.potential + least_turnover * start_.stored()),
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
-       "how far depends "
-       "on contact.stiffness and on the first steps");
+       "how far depends on contact.stiffness and on the first steps");
   look("granular bounds", e.theta_bounds / turnover, largest_share_of_bounds,
        "Theta runs into its stated bounds");
   look("friction solves", static_cast<double>(counts.unconverged_friction),

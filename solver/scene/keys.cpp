@@ -212,8 +212,7 @@ std::vector<Key> numerics_keys() {
           "A refused step that would be shorter ends the run; at most dt_max."),
       choice("numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
              "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded; "
-             "that "
-             "of a gas over a liquid stays of first order."),
+             "that of a gas over a liquid stays of first order."),
       choice(
           "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
           "Contact needs f_s,min in the whole cell (the paper), or grains that fill a part of a cell at the "
