@@ -8,12 +8,13 @@ namespace granvof {
 namespace {
 
 // Upwind difference of v along stride s at c for a carrier of sign w; limited: flux differences of van Leer's
-// reconstruction, so that a smooth v is differenced to second order and no new extremum appears.
-inline double upwind_difference(const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+// reconstruction, so that a smooth v is differenced to second order and no new extremum appears. Function
+// objects: a pointer to a function would be called for every value.
+constexpr auto upwind_difference = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
   return w > 0.0 ? v[c] - v[c - s] : v[c + s] - v[c];
-}
+};
 
-inline double limited_difference(const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
+constexpr auto limited_difference = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
   const double back = v[c] - v[c - s], ahead = v[c + s] - v[c];
   if (w > 0.0) {
     const double further = v[c - s] - v[c - 2 * s];
@@ -21,13 +22,14 @@ inline double limited_difference(const double* v, std::ptrdiff_t c, std::ptrdiff
   }
   const double further = v[c + 2 * s] - v[c + s];
   return ahead + 0.5 * van_leer(back, ahead) - 0.5 * van_leer(ahead, further);
-}
+};
 
-template <typename Difference, typename AtOpenTop>
-void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces, Difference difference,
-                AtOpenTop at_open_top, Field& acceleration) {
+template <typename Difference>
+void convect(const Grid& grid, const FaceField& u, int d, const Range& faces, Difference difference,
+             Field& acceleration) {
   const double* v = u[d].data();
   double* out = acceleration.data();
+  for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
   const std::ptrdiff_t sd = grid.stride(d);
   for (int e = 0; e < grid.dim; ++e) {
     const std::ptrdiff_t s = grid.stride(e);
@@ -44,7 +46,7 @@ void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces,
       inside.upper[d] = std::min(faces.upper[d], grid.cells.n[d]);
       last.lower[d] = inside.upper[d];
       along(inside, difference);
-      along(last, at_open_top);  // an open top: the ghosts end one face beyond it
+      along(last, upwind_difference);  // an open top: the ghosts end one face beyond it
     } else {
       // the carrier component, averaged to the face of d
       for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
@@ -59,34 +61,20 @@ void accumulate(const Grid& grid, const FaceField& u, int d, const Range& faces,
 
 void convective_acceleration(const Grid& grid, const FaceField& u, int d, const Range& faces, bool limited,
                              Field& acceleration) {
-  double* out = acceleration.data();
-  for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
-  // As function objects: a pointer to a function would be called for every value.
-  const auto one_sided = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
-    return upwind_difference(v, c, s, w);
-  };
-  const auto second_order = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
-    return limited_difference(v, c, s, w);
-  };
   if (limited) {
-    accumulate(grid, u, d, faces, second_order, one_sided, acceleration);
+    convect(grid, u, d, faces, limited_difference, acceleration);
   } else {
-    accumulate(grid, u, d, faces, one_sided, one_sided, acceleration);
+    convect(grid, u, d, faces, upwind_difference, acceleration);
   }
 }
 
 void convective_acceleration_limited_in(const Field& mass, double least, const Grid& grid, const FaceField& u,
                                         int d, const Range& faces, Field& acceleration) {
-  double* out = acceleration.data();
   const double* m = mass.data();
-  for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
-  const auto one_sided = [](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
-    return upwind_difference(v, c, s, w);
-  };
   const auto limited_inside = [=](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
     return m[c] > least ? limited_difference(v, c, s, w) : upwind_difference(v, c, s, w);
   };
-  accumulate(grid, u, d, faces, limited_inside, one_sided, acceleration);
+  convect(grid, u, d, faces, limited_inside, acceleration);
 }
 
 }  // namespace granvof
