@@ -40,25 +40,34 @@ TEST(Convection, ExactForLinearVelocities) {
   }
 }
 
-// Mean error of the acceleration of component 0 for a smooth periodic velocity on n x n cells.
-double mean_error(int n, bool limited) {
+constexpr double k = 2.0 * std::numbers::pi;
+
+// A smooth periodic velocity; every sign of both components occurs.
+double u0(const Vec3& x) {
+  return 0.7 + std::sin(k * x[0]) * std::cos(k * x[1]);
+}
+double u1(const Vec3& x) {
+  return -0.4 + std::cos(k * x[0]) * std::sin(k * x[1]);
+}
+
+Scene periodic_square(int n) {
   Scene scene = unit_scene(2, n);
   make_periodic(scene, 0);
   make_periodic(scene, 1);
-  const Tank s(scene);
-  const double k = 2.0 * std::numbers::pi;
-  const FaceField u = s.faces({[=](const Vec3& x) { return 0.7 + std::sin(k * x[0]) * std::cos(k * x[1]); },
-                               [=](const Vec3& x) { return -0.4 + std::cos(k * x[0]) * std::sin(k * x[1]); },
-                               [](const Vec3&) { return 0.0; }});
+  return scene;
+}
+
+// Mean error of the acceleration of component 0 for that velocity on n x n cells.
+double mean_error(int n, bool limited) {
+  const Tank s(periodic_square(n));
+  const FaceField u = s.faces({u0, u1, [](const Vec3&) { return 0.0; }});
   Field a(s.grid);
   convective_acceleration(s.grid, u, 0, s.grid.all_cells(), limited, a);
   double sum = 0.0;
   s.each_cell([&](int i, int j, int m, std::ptrdiff_t c) {
     const Vec3 x = s.face(0, i, j, m);
-    const double u0 = 0.7 + std::sin(k * x[0]) * std::cos(k * x[1]);
-    const double u1 = -0.4 + std::cos(k * x[0]) * std::sin(k * x[1]);
-    const double expected =
-        -u0 * k * std::cos(k * x[0]) * std::cos(k * x[1]) + u1 * k * std::sin(k * x[0]) * std::sin(k * x[1]);
+    const double expected = -u0(x) * k * std::cos(k * x[0]) * std::cos(k * x[1]) +
+                            u1(x) * k * std::sin(k * x[0]) * std::sin(k * x[1]);
     sum += std::fabs(a[c] - expected);
   });
   return sum / (n * n);
@@ -99,14 +108,8 @@ TEST(Convection, MirroredFlowsAccelerateAlike) {
 // Limited in the heavy fluid, one-sided in the light one.
 TEST(Convection, LimitedOnlyWhereTheFluidIsHeavy) {
   const int n = 16, surface = 8;
-  Scene scene = unit_scene(2, n);
-  make_periodic(scene, 0);
-  make_periodic(scene, 1);
-  const Tank s(scene);
-  const double k = 2.0 * std::numbers::pi;
-  const FaceField u = s.faces({[=](const Vec3& x) { return 0.7 + std::sin(k * x[0]) * std::cos(k * x[1]); },
-                               [=](const Vec3& x) { return -0.4 + std::cos(k * x[0]) * std::sin(k * x[1]); },
-                               [](const Vec3&) { return 0.0; }});
+  const Tank s(periodic_square(n));
+  const FaceField u = s.faces({u0, u1, [](const Vec3&) { return 0.0; }});
   Field mass(s.grid, 1.0), first(s.grid), second(s.grid), both(s.grid);
   s.each_cell([&](int, int j, int, std::ptrdiff_t c) { mass[c] = j < surface ? 1000.0 : 1.0; });
   s.boundary.exchange(mass);
