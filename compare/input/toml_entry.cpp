@@ -5,6 +5,27 @@
 #include <optional>
 
 namespace granvof::compare {
+namespace {
+
+template <typename Parse>
+toml::table parsed(Parse parse, std::string_view name) {
+  try {
+    return parse();
+  } catch (const toml::parse_error& error) {
+    throw TableError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+}
+
+}  // namespace
+
+toml::table parse_toml(std::string_view text, std::string_view name) {
+  return parsed([&] { return toml::parse(text, name); }, name);
+}
+
+toml::table parse_toml_file(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  return parsed([&] { return toml::parse_file(name); }, name);
+}
 
 void TomlEntry::fail(std::string_view key, std::string_view what) const {
   const toml::node* node = table_.get(key);

@@ -1,6 +1,7 @@
-// A table of a TOML file together with where it stands, so that every complaint names its place.
+// Tables of a TOML file together with where they stand, so that every complaint names its place.
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -14,6 +15,11 @@
 #include "compare/metrics/curve.hpp"
 
 namespace granvof::compare {
+
+// The root table; `name` stands for the file in messages. Throws TableError where it is no TOML.
+toml::table parse_toml(std::string_view text, std::string_view name);
+// The same from a file; TableError also where it cannot be read.
+toml::table parse_toml_file(const std::filesystem::path& file);
 
 // Every function that takes a key throws TableError where the key is missing or its value is not of the kind.
 class TomlEntry {

@@ -173,19 +173,11 @@ std::vector<Method> methods_of(const Study& study, const Chart* chart) {
 }
 
 Study parse_study(std::string_view text, std::string_view name) {
-  try {
-    return read_root(toml::parse(text, name), name);
-  } catch (const toml::parse_error& error) {
-    throw TableError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
-  }
+  return read_root(parse_toml(text, name), name);
 }
 
 Study read_study(const std::filesystem::path& file) {
-  try {
-    return read_root(toml::parse_file(file.string()), file.string());
-  } catch (const toml::parse_error& error) {
-    throw TableError(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
-  }
+  return read_root(parse_toml_file(file), file.string());
 }
 
 }  // namespace granvof::compare
