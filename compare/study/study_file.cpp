@@ -12,12 +12,19 @@
 namespace granvof::compare {
 namespace {
 
+// What methods, others and parts have in common.
+template <typename Named>
+Named read_named(const TomlEntry& entry) {
+  Named named;
+  named.name = entry.text("name");
+  if (entry.has("set")) named.set = entry.assignments("set");
+  if (entry.has("about")) named.about = entry.text("about");
+  return named;
+}
+
 Method read_method(const TomlEntry& entry) {
   entry.allow_only({"name", "set", "about", "grids", "other_model"});
-  Method method;
-  method.name = entry.text("name");
-  if (entry.has("set")) method.set = entry.assignments("set");
-  if (entry.has("about")) method.about = entry.text("about");
+  auto method = read_named<Method>(entry);
   if (entry.has("grids")) {
     const double grids = entry.positive("grids");
     if (grids != std::floor(grids)) entry.fail("grids", fmt::format("{} given; allowed: 1, 2, ...", grids));
@@ -29,22 +36,16 @@ Method read_method(const TomlEntry& entry) {
 
 Other read_other(const TomlEntry& entry) {
   entry.allow_only({"name", "records", "set", "about"});
-  Other other;
-  other.name = entry.text("name");
+  auto other = read_named<Other>(entry);
   if (entry.has("records")) other.records = entry.text("records");
-  if (entry.has("set")) other.set = entry.assignments("set");
-  if (entry.has("about")) other.about = entry.text("about");
   return other;
 }
 
 Part read_part(const TomlEntry& entry) {
   entry.allow_only({"name", "set", "form", "about"});
-  Part part;
-  part.name = entry.text("name");
+  auto part = read_named<Part>(entry);
   if (entry.has("set") == entry.has("form")) entry.fail("", "give one of 'set' and 'form'");
-  if (entry.has("set")) part.set = entry.assignments("set");
   if (entry.has("form")) part.form = entry.one_of("form", {Form::rigid_lid, Form::two_dimensions});
-  if (entry.has("about")) part.about = entry.text("about");
   return part;
 }
 
