@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "compare/study/runner.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -16,14 +17,6 @@ using namespace std::string_literals;
 
 class StudyRunner : public testing::Test {
  protected:
-  StudyRunner() {
-    root_ = fs::path(testing::TempDir()) /
-            ("study-runner-"s + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  ~StudyRunner() override { fs::remove_all(root_); }
-
   // A program that says its version, and for a run does `body`, a shell script; $out is the run directory.
   CachedRunner runner(const std::string& body, double timeout = 60.0) {
     const fs::path program = root_ / "program";
@@ -46,9 +39,8 @@ class StudyRunner : public testing::Test {
     return count;
   }
   const Job job_{fs::path(GRANVOF_CASES_DIR) / "canary.toml", {"time.end=2"}};
-
- private:
-  fs::path root_;
+  const test::TemporaryDirectory directory_;
+  const fs::path& root_ = directory_.path();
 };
 
 // What a run that ended early leaves behind.
@@ -136,7 +128,7 @@ TEST_F(StudyRunner, ACaseThatIsRefusedIsNotStarted) {
 }
 
 TEST_F(StudyRunner, AProgramThatIsNotThereIsSaid) {
-  RunnerOptions options{"/nonexistent/granvof", fs::path(testing::TempDir()) / "study-runner-none"};
+  const RunnerOptions options{"/nonexistent/granvof", root_ / "cache"};
   EXPECT_THROW(CachedRunner{options}, std::runtime_error);
 }
 

@@ -10,6 +10,7 @@
 #include "compare/study/target.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -24,14 +25,6 @@ constexpr const char* bands = R"([
 
 class Records : public testing::Test {
  protected:
-  Records()
-      : root_(fs::path(testing::TempDir()) /
-              (std::string("records-") + testing::UnitTest::GetInstance()->current_test_info()->name())),
-        scene_(load_scene(fs::path(GRANVOF_CASES_DIR) / "canary.toml")) {
-    fs::remove_all(root_);
-  }
-  ~Records() override { fs::remove_all(root_); }
-
   void write(const fs::path& file, const std::string& text) {
     fs::create_directories((root_ / file).parent_path());
     std::ofstream(root_ / file) << text;
@@ -45,8 +38,9 @@ class Records : public testing::Test {
                                          std::to_string(0.03 + 0.5 * reach) + "\n0.2," +
                                          std::to_string(0.03 + reach) + "\n");
   }
-  const fs::path root_;
-  const Scene scene_;
+  const test::TemporaryDirectory directory_;
+  const fs::path& root_ = directory_.path();
+  const Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "canary.toml");
 };
 
 TEST_F(Records, BandsOfSeedGridAndSliceAreTakenTogether) {

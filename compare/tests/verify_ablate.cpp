@@ -8,6 +8,7 @@
 #include "compare/study/ablate.hpp"
 #include "compare/study/runner.hpp"
 #include "compare/study/study_file.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -50,12 +51,11 @@ set = ["model.colour=7"]
 )toml";
 
 TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
-  const fs::path root = fs::path(testing::TempDir()) / "ablate";
-  fs::remove_all(root);
+  const test::TemporaryDirectory root;
   const fs::path file = fs::path(GRANVOF_CASES_DIR) / "canary.toml";
   const fs::path records = fs::path(GRANVOF_CASES_DIR) / "../reference/results";
   const std::vector<std::string> set{"grid.dx=0.005", "time.end=2", "output.field_times=[0]"};
-  RunnerOptions options{GRANVOF_PROGRAM, root};
+  RunnerOptions options{GRANVOF_PROGRAM, root.path()};
   options.progress = false;
   options.repeat_below = 0.0;
   CachedRunner runner(options);
@@ -99,7 +99,6 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
 
   CachedRunner again(options);
   EXPECT_TRUE(again.run({file, set}).kept);
-  fs::remove_all(root);
 }
 
 }  // namespace
