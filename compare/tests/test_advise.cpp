@@ -10,6 +10,7 @@ namespace granvof::compare {
 namespace {
 
 const Method plain{"plain", {}, "", std::nullopt};
+const Method same{"same", {}, "", std::nullopt};  // as plain, by another name
 const Method sharp{"sharp", {"numerics.solid_flux=limited"}, "", std::nullopt};
 const Part no_les{"no LES", {"model.les=false"}, std::nullopt, ""};
 const Part algebraic{"algebraic", {"model.granular_temperature=algebraic"}, std::nullopt, ""};
@@ -124,7 +125,6 @@ TEST(Advise, LeavesOutPartsThatMoveNothing) {
 TEST(Advise, OfMethodsThatCostTheSameTheFirstIsTaken) {
   FakeBench bench;
   bench.result = first_order;
-  const Method same{"same", {}, "", std::nullopt};
   EXPECT_EQ(name_of(advise(cells, {same, plain}, {}, 0.06, bench).chosen->configuration), "same on 2.5 mm");
   EXPECT_EQ(name_of(advise(cells, {sharp, plain}, {}, 0.06, bench).chosen->configuration), "sharp on 5 mm");
   bench.noise = 0.6;  // sharp costs half as much again
@@ -138,7 +138,6 @@ TEST(Advise, TheReferenceItselfIsTheLastWitness) {
   FakeBench bench;
   bench.result = first_order;
   bench.reference = [](const Configuration& c) { return c.method.name == "plain" && c.cell == 0.000625; };
-  const Method same{"same", {}, "", std::nullopt};
   const Advice other = advise(cells, {plain, same}, {}, 0.025 + 1e-9, bench);
   EXPECT_EQ(name_of(other.chosen->configuration), "same on 1.25 mm");
   const Advice alone = advise(cells, {plain}, {}, 0.025 + 1e-9, bench);

@@ -94,12 +94,25 @@ while "forever" in sets:
 """
 
 
-def test_a_wrong_answer_without_a_warning_is_found_at_half_the_step(tmp_path):
-    solver = tmp_path / "granvof"
-    solver.write_text(FAKE)
-    solver.chmod(0o755)
-    runner = judge.Runner(solver, tmp_path, 20)
-    scene = table.SceneEntry("s", tmp_path / "s.toml", {"y_solid_mean": 0.01})
+@pytest.fixture
+def solver(tmp_path):
+    path = tmp_path / "granvof"
+    path.write_text(FAKE)
+    path.chmod(0o755)
+    return path
+
+
+@pytest.fixture
+def runner(solver, tmp_path):
+    return judge.Runner(solver, tmp_path, 20)
+
+
+@pytest.fixture
+def scene(tmp_path):
+    return table.SceneEntry("s", tmp_path / "s.toml", {"y_solid_mean": 0.01})
+
+
+def test_a_wrong_answer_without_a_warning_is_found_at_half_the_step(runner, scene):
     assert runner.judge(scene, ["k=0.01"], "good").holds
     wrong = runner.judge(scene, ["k=1"], "wrong")
     assert wrong.kind == judge.UNDETECTED
@@ -107,22 +120,14 @@ def test_a_wrong_answer_without_a_warning_is_found_at_half_the_step(tmp_path):
     assert runner.runs == 4
 
 
-def test_what_depends_on_the_step_and_is_warned_of_is_detected(tmp_path):
-    solver = tmp_path / "granvof"
-    solver.write_text(FAKE)
-    solver.chmod(0o755)
-    runner = judge.Runner(solver, tmp_path, 20)
-    scene = table.SceneEntry("s", tmp_path / "s.toml", {"y_solid_mean": 0.01})
+def test_what_depends_on_the_step_and_is_warned_of_is_detected(runner, scene):
     warned = ['warnings=[{"monitor": "elastic start", "value": 2, "limit": 1}]']
     assert runner.judge(scene, ["k=0.01"] + warned, "same", ["elastic start"]).holds
     assert runner.judge(scene, ["k=1"] + warned, "moved", ["elastic start"]).kind == judge.DETECTED
 
 
-def test_a_run_beyond_its_core_seconds_counts_as_failed(tmp_path):
-    solver = tmp_path / "granvof"
-    solver.write_text(FAKE)
-    solver.chmod(0o755)
-    found = judge.Runner(solver, tmp_path, 1).judge(table.SceneEntry("s", tmp_path / "s.toml", {}), ["forever=1"], "endless")
+def test_a_run_beyond_its_core_seconds_counts_as_failed(solver, scene, tmp_path):
+    found = judge.Runner(solver, tmp_path, 1).judge(scene, ["forever=1"], "endless")
     assert found.kind == judge.COLLAPSE
 
 
