@@ -26,7 +26,7 @@ struct ReferenceValue {
 // bands.json says of the quantity.
 ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
                                   const std::vector<LoadedRun>& variants, const FindRun& find,
-                                  const std::filesystem::path& record_folder) {
+                                  const Bands& bands) {
   ReferenceValue reference;
   reference.band = check.reference.band;
   if (variants.empty()) {
@@ -43,8 +43,8 @@ ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
     const Measured measured = metric.function(*variant.run, check.parameters, find);
     if (measured.value) {
       values.push_back(*measured.value);
-      reference.band = std::max(reference.band,
-                                record_uncertainty(check.metric, *variant.run, record_folder).value_or(0.0));
+      reference.band =
+          std::max(reference.band, record_uncertainty(check.metric, *variant.run, bands).value_or(0.0));
     } else {
       reference.note = fmt::format("{}: {}", variant.run->directory.string(), measured.note);
     }
@@ -79,8 +79,7 @@ Result without_value(Result result, Verdict verdict, std::string note) {
 }
 
 Result evaluate_check(const Check& check, const Evaluation& evaluation, const RunSummary& summary,
-                      const std::map<std::string, std::vector<LoadedRun>>& records,
-                      const std::filesystem::path& record_folder) {
+                      const std::map<std::string, std::vector<LoadedRun>>& records, const Bands& bands) {
   const MetricEntry& metric = *find_metric(check.metric);
   Result result;
   result.check = check;
@@ -99,7 +98,7 @@ Result evaluate_check(const Check& check, const Evaluation& evaluation, const Ru
   result.value = measured.value;
   const ReferenceValue reference =
       check.reference.record
-          ? recorded_reference(check, metric, records.at(*check.reference.record), find, record_folder)
+          ? recorded_reference(check, metric, records.at(*check.reference.record), find, bands)
           : stated_reference(check, run);
   result.reference = reference.value;
   result.band = reference.band;
@@ -171,6 +170,7 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
       if (peer.run) evaluation.peers[plan.id].push_back(*peer.run);
   }
   const auto checks = due_checks(table, frequency);
+  const Bands bands = read_bands(paths.records);
   std::map<std::string, std::vector<LoadedRun>> records;
   const auto load = [&](const std::string& name, const Scene& scene) {
     if (records.contains(name)) return;
@@ -187,7 +187,7 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
   for (const Check& check : checks) {
     const auto summary = std::find_if(evaluation.runs.begin(), evaluation.runs.end(),
                                       [&](const RunSummary& run) { return run.plan.id == check.run; });
-    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records, paths.records));
+    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records, bands));
   }
   return evaluation;
 }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <numeric>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -18,27 +19,27 @@ constexpr std::array<std::string_view, 3> kinds{"seed", "cell-", "slice-"};
 
 }  // namespace
 
-std::optional<double> band_of(const std::filesystem::path& records, std::string_view column) {
+Bands read_bands(const std::filesystem::path& records) {
   const auto file = records / "bands.json";
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  const auto bands = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (!bands.is_array()) throw OutputError("read", file, "it is not a JSON list");
-  std::array<double, kinds.size()> largest{};
-  bool found = false;
-  for (const auto& band : bands) {
-    if (!band.is_object() || band.value("column", "") != column) continue;
-    if (!band.contains("rms") || !band["rms"].is_number())
+  if (!std::filesystem::exists(file)) return {};
+  const auto differences = nlohmann::json::parse(read_file(file), nullptr, false);
+  if (!differences.is_array()) throw OutputError("read", file, "it is not a JSON list");
+  std::map<std::string, std::array<double, kinds.size()>> largest;
+  for (const auto& difference : differences) {
+    if (!difference.is_object()) continue;
+    if (!difference.contains("rms") || !difference["rms"].is_number())
       throw OutputError("read", file, "a band without the number 'rms'");
-    const std::string against = band.value("against", "");
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-      if (!against.starts_with(kinds[i])) continue;
-      largest[i] = std::max(largest[i], band["rms"].get<double>());
-      found = true;
-    }
+    const std::string against = difference.value("against", "");
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      if (against.starts_with(kinds[i])) {
+        double& rms = largest[difference.value("column", "")][i];
+        rms = std::max(rms, difference["rms"].get<double>());
+      }
   }
-  double squares = 0.0;
-  for (const double rms : largest) squares += rms * rms;
-  return found ? std::optional(std::sqrt(squares)) : std::nullopt;
+  Bands bands;
+  for (const auto& [column, each] : largest)
+    bands[column] = std::sqrt(std::inner_product(each.begin(), each.end(), each.begin(), 0.0));
+  return bands;
 }
 
 }  // namespace granvof::compare

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "compare/input/bands.hpp"
 #include "compare/input/curves.hpp"
 
 namespace granvof::compare {
@@ -27,14 +26,13 @@ constexpr std::array table{
 
 }  // namespace
 
-std::optional<double> record_uncertainty(std::string_view quantity, const Run& record,
-                                         const std::filesystem::path& records) {
+std::optional<double> record_uncertainty(std::string_view quantity, const Run& record, const Bands& bands) {
   const auto* entry =
       std::find_if(table.begin(), table.end(), [&](const Entry& e) { return e.quantity == quantity; });
   if (entry == table.end()) return std::nullopt;
-  const auto band = band_of(records, entry->column);
-  if (!band) return std::nullopt;
-  return entry->over_height ? *band / column_of(record).height : *band;
+  const auto band = bands.find(entry->column);
+  if (band == bands.end()) return std::nullopt;
+  return entry->over_height ? band->second / column_of(record).height : band->second;
 }
 
 }  // namespace granvof::compare

@@ -138,8 +138,8 @@ std::optional<double> relative_distance(const Quantity& quantity, const Observed
 }
 
 std::optional<double> relative_uncertainty(const Quantity& quantity, const Run& record,
-                                           const Observed& observed, const std::filesystem::path& records) {
-  const auto uncertainty = record_uncertainty(quantity.name, record, records);
+                                           const Observed& observed, const Bands& bands) {
+  const auto uncertainty = record_uncertainty(quantity.name, record, bands);
   const auto scale =
       quantity.is_curve ? range_of(observed.curve, quantity.parameters.window) : observed.value;
   if (!uncertainty || !scale || *scale == 0.0) return std::nullopt;

@@ -1,7 +1,6 @@
 // What a study looks at: one metric with its parameters, or one curve, and the error of either.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "compare/checks/check.hpp"
 #include "compare/checks/registry.hpp"
+#include "compare/input/bands.hpp"
 #include "compare/input/run.hpp"
 
 namespace granvof::compare {
@@ -54,6 +54,6 @@ std::optional<double> relative_distance(const Quantity& quantity, const Observed
 
 // The uncertainty of a record (input/uncertainty.hpp), relative as relative_distance() is [-].
 std::optional<double> relative_uncertainty(const Quantity& quantity, const Run& record,
-                                           const Observed& observed, const std::filesystem::path& records);
+                                           const Observed& observed, const Bands& bands);
 
 }  // namespace granvof::compare

@@ -61,6 +61,7 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
   Target target{"DEM", fmt::format("reference/results/{}", name), {}, 0.0, std::nullopt, ""};
   std::vector<Observed> variants;
   double dearest = 0.0;
+  const Bands bands = read_bands(records);
   for (const LoadedRun& loaded : load_records(records, name, scene)) {
     if (!loaded.run) {
       target.note = loaded.reason;
@@ -69,7 +70,7 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
     Observed observed = observe(quantity, *loaded.run);
     if (const auto cost = cost_of_record(*loaded.run)) dearest = std::max(dearest, *cost);
     if (!observed.defined()) continue;
-    if (const auto band = relative_uncertainty(quantity, *loaded.run, observed, records))
+    if (const auto band = relative_uncertainty(quantity, *loaded.run, observed, bands))
       target.floor = std::max(target.floor, *band);
     variants.push_back(std::move(observed));
   }
@@ -85,7 +86,7 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
           std::max(target.floor, 0.5 * relative_distance(quantity, variants[i], variants[j]).value_or(0.0));
   target.source += fmt::format(", {} record{}", variants.size(), variants.size() == 1 ? "" : "s");
   if (variants.size() == 1)
-    target.note = target.floor > 0.0 ? "one record; its uncertainty is the canary's (seed, grid, slice)"
+    target.note = target.floor > 0.0 ? "one record; its uncertainty is what seed, grid and slice move others"
                                      : "one record: its own uncertainty is not known from it";
   return target;
 }

@@ -44,12 +44,15 @@ class Records : public testing::Test {
 };
 
 TEST_F(Records, BandsOfSeedGridAndSliceAreTakenTogether) {
-  EXPECT_FALSE(band_of(root_, "front_dense [m]"));
+  EXPECT_TRUE(read_bands(root_).empty());
   write("bands.json", bands);
-  EXPECT_NEAR(*band_of(root_, "front_dense [m]"), 0.005, 1e-15);
-  EXPECT_FALSE(band_of(root_, "p_base [Pa]"));
+  const Bands read = read_bands(root_);
+  EXPECT_NEAR(read.at("front_dense [m]"), 0.005, 1e-15);
+  EXPECT_FALSE(read.contains("p_base [Pa]"));
   write("bands.json", "{}");
-  EXPECT_THROW(band_of(root_, "front_dense [m]"), OutputError);
+  EXPECT_THROW(read_bands(root_), OutputError);
+  write("bands.json", R"([{"against": "seed2", "column": "p_base [Pa]"}])");
+  EXPECT_THROW(read_bands(root_), OutputError);
 }
 
 TEST_F(Records, OneRecordIsAsUncertainAsTheCanary) {
