@@ -125,6 +125,21 @@ Check row(Check check, const Reference& reference, std::optional<double> at, con
   return check;
 }
 
+// One for each of the check's instants; none where it is not expected to fail.
+std::vector<ExpectedFailure> read_expected_failures(const TomlEntry& check, std::size_t instants) {
+  if (!check.has("expected_failure")) return {};
+  const TomlEntry entry = check.entry("expected_failure");
+  entry.allow_only({"reason", "distance"});
+  std::vector<double> distances = entry.non_negatives("distance");
+  if (distances.size() == 1) distances.resize(instants, distances.front());
+  if (distances.size() != instants)
+    entry.fail("distance", fmt::format("{} numbers given; allowed: one, or as many as 'at' has ({})",
+                                       distances.size(), instants));
+  std::vector<ExpectedFailure> failures;
+  for (const double distance : distances) failures.push_back({entry.text("reason"), distance});
+  return failures;
+}
+
 // A row for each of its references, instants and runs.
 std::vector<Check> read_check(const TomlEntry& entry) {
   entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
@@ -143,23 +158,22 @@ std::vector<Check> read_check(const TomlEntry& entry) {
   if (entry.has("asserted")) check.asserted = entry.truth("asserted");
   check.frequency = entry.one_of(
       "frequency", {Frequency::short_, Frequency::verify, Frequency::nightly, Frequency::weekly});
-  if (entry.has("expected_failure")) {
-    const TomlEntry failure = entry.entry("expected_failure");
-    failure.allow_only({"reason", "distance"});
-    check.expected_failure = {failure.text("reason"), failure.non_negative("distance")};
-    if (!check.asserted) entry.fail("expected_failure", "a row that is not asserted cannot fail");
-  }
   if (entry.has("label")) check.label = entry.text("label");
   std::vector<std::optional<double>> instants{std::nullopt};
   if (metric->needs.at) {
     instants.clear();
     for (const double at : entry.numbers("at")) instants.push_back(at);
   }
+  const auto failures = read_expected_failures(entry, instants.size());
+  if (!failures.empty() && !check.asserted)
+    entry.fail("expected_failure", "a row that is not asserted cannot fail");
   std::vector<Check> checks;
   for (const TomlEntry& reference : entry.entry_or_entries("reference")) {
     const Reference read = read_reference(reference, *metric);
-    for (const auto& at : instants)
-      for (const std::string& run : entry.texts("run")) checks.push_back(row(check, read, at, run));
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+      if (!failures.empty()) check.expected_failure = failures[i];
+      for (const std::string& run : entry.texts("run")) checks.push_back(row(check, read, instants[i], run));
+    }
   }
   return checks;
 }

@@ -51,9 +51,7 @@ double TomlEntry::number(std::string_view key) const {
 }
 
 double TomlEntry::non_negative(std::string_view key) const {
-  const double value = number(key);
-  if (value < 0.0) fail(key, fmt::format("{} given; allowed: 0 or more", value));
-  return value;
+  return require_non_negative(number(key), key);
 }
 
 double TomlEntry::positive(std::string_view key) const {
@@ -87,6 +85,12 @@ std::vector<double> TomlEntry::numbers(std::string_view key) const {
   std::vector<double> list;
   for (const toml::node& node : *array) list.push_back(number_of(node, key));
   if (list.empty()) fail(key, "the list is empty");
+  return list;
+}
+
+std::vector<double> TomlEntry::non_negatives(std::string_view key) const {
+  std::vector<double> list = numbers(key);
+  for (const double value : list) require_non_negative(value, key);
   return list;
 }
 
@@ -148,6 +152,11 @@ const toml::node& TomlEntry::require(std::string_view key) const {
   const toml::node* node = table_.get(key);
   if (!node) fail("", fmt::format("the key '{}' is missing", key));
   return *node;
+}
+
+double TomlEntry::require_non_negative(double value, std::string_view key) const {
+  if (value < 0.0) fail(key, fmt::format("{} given; allowed: 0 or more", value));
+  return value;
 }
 
 double TomlEntry::number_of(const toml::node& node, std::string_view key) const {

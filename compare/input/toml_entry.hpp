@@ -44,6 +44,8 @@ class TomlEntry {
   std::vector<std::string> texts(std::string_view key) const;
   // One number or a list of them, not empty.
   std::vector<double> numbers(std::string_view key) const;
+  // The same, each 0 or more.
+  std::vector<double> non_negatives(std::string_view key) const;
   // A list of numbers > 0, not empty.
   std::vector<double> positives(std::string_view key) const;
   Window window(std::string_view key) const;
@@ -69,6 +71,7 @@ class TomlEntry {
 
  private:
   const toml::node& require(std::string_view key) const;
+  double require_non_negative(double value, std::string_view key) const;
   double number_of(const toml::node& node, std::string_view key) const;
 
   const toml::table& table_;

@@ -62,6 +62,26 @@ frequency = "verify"
   EXPECT_DOUBLE_EQ(table.checks[7].reference.band, 0.02);
 }
 
+TEST(Table, ADistanceForEachInstantOrOneForAll) {
+  const auto distances = [](const std::string& distance) {
+    const Table table = parse_table(runs + R"toml([[check]]
+run = ["s1", "s2"]
+metric = "run_out"
+at = [2, 5]
+reference = { kind = "DEM" }
+tolerance = { absolute = 0.1, unit = "-" }
+frequency = "verify"
+expected_failure = { reason = "why", distance = )toml" +
+                                        distance + " }",
+                                    "checks.toml");
+    std::vector<double> found;
+    for (const Check& check : table.checks) found.push_back(check.expected_failure.value().distance);
+    return found;
+  };
+  EXPECT_EQ(distances("[0.2, 0.3]"), (std::vector{0.2, 0.2, 0.3, 0.3}));  // both runs at 2, both at 5
+  EXPECT_EQ(distances("0.4"), (std::vector{0.4, 0.4, 0.4, 0.4}));
+}
+
 TEST(Table, ReadsRowsAndExpandsRuns) {
   const Table table = parse_table(good, "checks.toml");
   ASSERT_EQ(table.runs.size(), 2u);
@@ -124,6 +144,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"set = [\"grid.dx=0.0025\"]", "set = [\"grid.dx\"]", "3:", "expected key=value"},
         BadInput{"id = \"s2\"", "id = \"s1\"", "6:", "given twice"},
         BadInput{"run = [\"s1\", \"s2\"]", "run = [\"s1\", \"s1\"]", "8:", "checked twice"},
+        BadInput{"distance = 0.2", "distance = [0.2, 0.3]",
+                 "15:", "2 numbers given; allowed: one, or as many as 'at' has (1)"},
+        BadInput{"distance = 0.2", "distance = [-0.2]", "15:", "-0.2 given; allowed: 0 or more"},
         BadInput{"at = 2", "at = ", "11:", ""}));
 
 TEST(Table, AWindowMustGoForward) {
