@@ -87,6 +87,25 @@ TEST(Coupling, ALoneBeadSettlesAtItsTerminalSpeed) {
   EXPECT_NEAR(-mean_velocity(run, 1), expected, 0.02 * expected);
 }
 
+// A bead of twice the diameter stands for eight grains and falls as one of them would. The tank is eight
+// times as deep, so that the water it sees is moved as little.
+TEST(Coupling, ACoarseGrainedBeadSettlesAtTheTerminalSpeedOfItsGrains) {
+  TankSetup s = tank(8, 12, 0.01, 8 * 0.02, FluidSide::open);
+  s.beads.diameter = 2.0 * d;
+  BeadState bead;
+  bead.position = {0.04, 0.09, 0.08};
+  demvof::CouplingSettings coupling;
+  const auto settled = [&](double coarse_graining) {
+    coupling.coarse_graining = coarse_graining;
+    CoupledRun run(coupling, s.beads, bead, {}, s.fluid, std::vector<double>(s.cells(), 1.0));
+    for (int n = 0; n < 1000; ++n) run.step(2e-4);
+    return -mean_velocity(run, 1);
+  };
+  const double expected = terminal_speed(0.0, 2500.0, 9.81);
+  EXPECT_NEAR(settled(2.0), expected, 0.02 * expected);
+  EXPECT_GT(settled(1.0), 1.5 * expected);  // what the setting is for
+}
+
 // Momentum along x [kg m/s]: what the beads began with, what beads and water have more or less at the end,
 // and what the walls gave.
 struct Impulses {

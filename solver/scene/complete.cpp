@@ -344,8 +344,11 @@ class Completion {
     if (!flat() && given("reference.slice_depth")) {
       refuse("reference.slice_depth", "no such key in 3D: tank.size has the depth");
     }
-    if (r.dt > r.fluid_dt)
-      refuse("reference.dt", fmt::format("at most reference.fluid_dt = {} s", r.fluid_dt));
+    if (r.dt * r.coarse_graining > r.fluid_dt) {
+      refuse("reference.dt", fmt::format("at most reference.fluid_dt{} = {} s",
+                                         r.coarse_graining > 1.0 ? " / reference.coarse_graining" : "",
+                                         r.fluid_dt / r.coarse_graining));
+    }
     if (r.seeds.empty()) refuse("reference.seeds", "at least one seed");
     const bool gated = has("gate");
     r.release =

@@ -120,6 +120,11 @@ inline Key otherwise(Key k, std::string text) {
   k.otherwise = std::move(text);
   return k;
 }
+// Out of the hashes at its default, see Key::unhashed.
+inline Key came_later(Key k) {
+  k.unhashed = k.otherwise;
+  return k;
+}
 inline Key scoped(Key k, Scope scope) {
   k.scope = scope;
   return k;

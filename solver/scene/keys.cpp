@@ -241,7 +241,11 @@ std::vector<Key> reference_keys() {
       required(
           key("reference.cell", "m", positive, MEMBER(reference.settings.cell), "Edge of a fluid cell.")),
       key("reference.fluid_dt", "s", positive, MEMBER(reference.settings.fluid_dt), "Fluid step."),
-      key("reference.dt", "s", positive, MEMBER(reference.settings.dt), "DEM step; at most fluid_dt."),
+      key("reference.dt", "s", positive, MEMBER(reference.settings.dt),
+          "DEM step; with coarse_graining that many times longer; at most fluid_dt."),
+      came_later(key("reference.coarse_graining", "-", Range{.lower = 1.0, .upper = 10.0},
+                     MEMBER(reference.settings.coarse_graining),
+                     "Bead's over grain's diameter: a bead stands for its cube of grains.")),
       otherwise(key("reference.slice_depth", "m", positive, MEMBER(reference.slice_depth),
                     "Depth of the slice; required in 2D, 2D only."),
                 "the tank's (3D)"),

@@ -37,6 +37,9 @@ struct Key {
   std::string help;
   Scope scope = Scope::unset;
   bool documented = true;  // false for the sides after the first: they share one row
+  // Value at which the key stays out of the hashes. For a key that came when there were records: a case that
+  // does not use it is the case that was recorded. Empty: the key is in the hash at any value.
+  std::string unhashed = {};
 
   // Takes the value into the draft; false where type or range do not fit.
   std::function<bool(Draft&, const Value&)> set;

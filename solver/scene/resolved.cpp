@@ -40,7 +40,7 @@ std::string hash_of(const Draft& draft, const std::vector<Scope>& scopes) {
   for (const Key& key : keys()) {
     if (!draft.tables.contains(key.table()) || !std::ranges::count(scopes, key.scope)) continue;
     const std::string value = key.get(draft);
-    if (!value.empty()) text += fmt::format("{}={}\n", key.name, value);
+    if (!value.empty() && value != key.unhashed) text += fmt::format("{}={}\n", key.name, value);
   }
   return fmt::format("{:016x}", fnv1a(text));
 }

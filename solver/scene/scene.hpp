@@ -162,9 +162,11 @@ enum class ReferenceRelease { gate, instant };
 
 // How demvof computes the scene; the solver reads none of it.
 struct ReferenceSettings {
-  double cell = 0.0;             // edge of a fluid cell [m], > 0
-  double fluid_dt = 1e-4;        // fluid step [s], > 0
-  double dt = 1e-5;              // DEM step [s], > 0, at most fluid_dt
+  double cell = 0.0;       // edge of a fluid cell [m], > 0
+  double fluid_dt = 1e-4;  // fluid step [s], > 0
+  double dt = 1e-5;        // DEM step [s], > 0; of coarse-grained beads: times coarse_graining, as their
+                           // Rayleigh time; at most fluid_dt
+  double coarse_graining = 1.0;  // bead's over grain's diameter [-], in [1, 10]
   double slice_depth = 0.0;      // 2D scenes: depth of the periodic slice [m], > 0; 3D: the tank's depth
   std::vector<int> seeds{1, 2};  // one run each: the spread is the reference's own uncertainty
   ReferenceFloor floor = ReferenceFloor::rough;

@@ -10,7 +10,9 @@ namespace demvof {
 
 using Vector = std::array<double, 3>;  // as in fluid/fluid.hpp
 
-// Hertz contact with tangential history (Coulomb-limited), as LIGGGHTS has it.
+// Hertz contact with tangential history (Coulomb-limited), as LIGGGHTS has it. Every parameter is that of the
+// material: beads of any size have the same overlap over diameter under the same stress, and the same packing
+// and friction at rest (coarse-grained beads: Bierwisch et al., J. Mech. Phys. Solids 57, 2009).
 struct ContactLaw {
   double young = 5e6;             // [Pa], >= 5e6 (LIGGGHTS refuses less in SI units)
   double poisson = 0.3;           // [-]

@@ -145,12 +145,15 @@ void CoupledRun::renew_drag() {
   mapping_.gather(view.alpha, 1, 0, alpha);
   mapping_.gather(solid_fraction_, 1, 0, f_s);
   const std::vector<double>& velocity = beads_->state().velocity;
+  // Of the grains: drag and slip Reynolds number are theirs, so that the drag per volume is that of the bed.
+  const double k = settings_.coarse_graining, grains = k * k * k;
+  const double diameter = beads_->settings().diameter / k;
   for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
     const double slip = std::hypot(load_.velocity[3 * bead] - velocity[3 * bead],
                                    load_.velocity[3 * bead + 1] - velocity[3 * bead + 1],
                                    load_.velocity[3 * bead + 2] - velocity[3 * bead + 2]);
-    load_.coefficient[bead] = bead_drag(f_s[bead], std::clamp(alpha[bead], 0.0, 1.0), slip, gas, liquid,
-                                        beads_->settings().diameter);
+    load_.coefficient[bead] =
+        grains * bead_drag(f_s[bead], std::clamp(alpha[bead], 0.0, 1.0), slip, gas, liquid, diameter);
   }
 }
 

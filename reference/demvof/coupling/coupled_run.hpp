@@ -21,6 +21,9 @@ namespace demvof {
 struct CouplingSettings {
   double fluid_dt = 2e-4;  // longest fluid step [s]; shortened where the liquid would move half a cell
   bool drag = true;        // false: pressure gradient alone
+  // Bead's over grain's diameter [-], >= 1: a bead of diameter k d stands for k^3 grains of diameter d and
+  // has the drag of them all.
+  double coarse_graining = 1.0;
   // Pressure on the beads predicted with their inertia in the equation, instead of that of the last fluid
   // step. Needed where (f_s / rho_s) / (f_c / rho_c) exceeds about 1: beads not much heavier than the liquid.
   // What the prediction missed is handed over in the next step.

@@ -12,6 +12,8 @@ struct PhaseProperties {
   double viscosity = 0.0;  // [Pa s]
 };
 
+// Of one grain: a coarse-grained bead has that of all the grains it stands for.
+
 // Coefficient [kg/s] in one fluid. f_s in [0, 1), slip = |u_c - u_s| >= 0 [m/s], diameter [m].
 double bead_drag(double f_s, double slip, const PhaseProperties& fluid, double diameter);
 

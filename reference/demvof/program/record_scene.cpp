@@ -65,7 +65,7 @@ class GateKeeper {
   void follow(double time) {
     if (!present_ || stays_) return;
     const double edge = scene_.gate->speed * time;
-    if (bead_plate_ && edge > scene_.bed->box.upper[1] + 4.0 * scene_.solid.diameter) {
+    if (bead_plate_ && edge > scene_.bed->box.upper[1] + 4.0 * bead_diameter(scene_)) {
       run_.beads().remove_gate();
       bead_plate_ = false;
     }
@@ -92,12 +92,13 @@ class Recording {
 
   void row(double time) {
     const BeadState& beads = run_.beads().state();
-    const double change = run_.fluid().liquid_volume() / liquid_start_ - 1.0;
+    // A scene without liquid has none to lose.
+    const double change = liquid_start_ > 0.0 ? run_.fluid().liquid_volume() / liquid_start_ - 1.0 : 0.0;
     const std::vector<granvof::Value> monitors{
         last_step_,
         bead_front(beads),
         bead_rms_speed(beads),
-        floor_slip(beads, scene_.solid.diameter, scene_.bed->box.upper[0]),
+        floor_slip(beads, bead_diameter(scene_), scene_.bed->box.upper[0]),
         excess_base_pressure(run_, scene_),
         run_.fluid().largest_speed(),
         change};
@@ -145,6 +146,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   CouplingSettings coupling;
   coupling.fluid_dt = scene.reference->fluid_dt;
   coupling.drag = scene.model.drag;
+  coupling.coarse_graining = scene.reference->coarse_graining;
   coupling.predict_pressure = scene.solid.density < 1.5 * scene.liquid.density;
   if (scene.gate) coupling.closed_gate = gate_face(gridded);
   BeadState beads;
@@ -171,7 +173,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
     progress.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   };
   const auto advance_to = [&](double target) {
-    const double half = 0.5 * scene.reference->dt;
+    const double half = 0.5 * bead_dt(scene);
     while (now < target - half) {
       recording.step(target - now);
       now = run.time() - hold;
@@ -183,7 +185,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   try {
     advance_to(0.0);
     const BeadState& rested = run.beads().state();
-    const double d = scene.solid.diameter;
+    const double d = bead_diameter(scene);
     const granvof::Box& bed = scene.bed->box;
     const Vector inner_lower{bed.lower[0] + 3 * d, bed.lower[1] + 3 * d, 0.0};
     const Vector inner_upper{bed.upper[0] - 3 * d, bed.upper[1] - 6 * d, depth_of(scene)};

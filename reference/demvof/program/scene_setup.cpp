@@ -17,6 +17,8 @@ using granvof::SideKind;
 using granvof::WallKind;
 
 constexpr double loosest_pile = 0.55;  // below it a bed cannot be at rest: it is suspended [-]
+// In bead diameters; in a thinner slice a bead touches another and its image.
+constexpr double thinnest_slice = 2.0;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}", scene.file.string(), why));
@@ -82,6 +84,10 @@ void check_scene(const Scene& scene) {
       if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
     }
   }
+  if (flat(scene) && depth_of(scene) < thinnest_slice * bead_diameter(scene)) {
+    refuse(scene, fmt::format("reference.slice_depth is {:.6g} m, allowed: >= {:.6g} m, {} bead diameters",
+                              depth_of(scene), thinnest_slice * bead_diameter(scene), thinnest_slice));
+  }
   if (scene.gate) {
     const double faces = scene.gate->position / (scene.tank[0] / reference_cells(scene)[0]);
     if (std::abs(faces - std::round(faces)) > 1e-6) {
@@ -92,6 +98,14 @@ void check_scene(const Scene& scene) {
                       scene.gate->position));
     }
   }
+}
+
+double bead_diameter(const Scene& scene) {
+  return scene.solid.diameter * scene.reference->coarse_graining;
+}
+
+double bead_dt(const Scene& scene) {
+  return scene.reference->dt * scene.reference->coarse_graining;
 }
 
 double depth_of(const Scene& scene) {
@@ -119,10 +133,10 @@ BeadSettings bead_settings(const Scene& scene, const std::string& scratch) {
   BeadSettings b;
   b.tank = {scene.tank[0], scene.tank[1], depth_of(scene)};
   b.periodic_depth = flat(scene);
-  b.diameter = scene.solid.diameter;
+  b.diameter = bead_diameter(scene);
   b.density = scene.solid.density;
   b.law = run_law(scene);
-  b.dt = scene.reference->dt;
+  b.dt = bead_dt(scene);
   b.gravity = scene.gravity;
   if (scene.gate) {
     b.gate = scene.gate->position;
@@ -145,7 +159,7 @@ ColumnSettings column_settings(const Scene& scene, unsigned seed, const std::vec
   }
   c.packing = r.packing;
   c.suspended = r.packing < loosest_pile;
-  c.diameter = scene.solid.diameter;
+  c.diameter = bead_diameter(scene);
   c.density = scene.solid.density;
   const double lighter = scene.liquid.density / scene.solid.density;
   // Floating beads are packed under their own weight's size of buoyancy; only its size matters.
@@ -155,7 +169,7 @@ ColumnSettings column_settings(const Scene& scene, unsigned seed, const std::vec
   c.preparation_law.rolling_friction = r.preparation_rolling_friction;
   // A column that is not held is wanted as it was prepared: the packing that its friction cannot carry.
   c.final_settling = !scene.gate || r.hold > 0.0;
-  c.dt = r.dt;
+  c.dt = bead_dt(scene);
   c.floor = floor;
   c.seed = seed;
   c.scratch_folder = scratch;
@@ -163,9 +177,9 @@ ColumnSettings column_settings(const Scene& scene, unsigned seed, const std::vec
 }
 
 std::vector<double> floor_beads(const Scene& scene, unsigned seed) {
-  const bool on_floor = scene.bed->box.lower[1] < scene.solid.diameter;
+  const bool on_floor = scene.bed->box.lower[1] < bead_diameter(scene);
   if (scene.reference->floor != granvof::ReferenceFloor::rough || !on_floor) return {};
-  return rough_floor({scene.tank[0], depth_of(scene), flat(scene)}, scene.solid.diameter, seed);
+  return rough_floor({scene.tank[0], depth_of(scene), flat(scene)}, bead_diameter(scene), seed);
 }
 
 std::vector<double> initial_alpha(const Scene& scene, const FluidSettings& fluid) {

@@ -14,9 +14,13 @@ namespace demvof {
 void check_beads(const granvof::Scene& scene);
 
 // The same, and for what else demvof does not compute, naming the key: a scene without a bed,
-// periodic or moving walls, a sloping bed, walls that only beads feel as Coulomb walls.
+// periodic or moving walls, a sloping bed, a slice thinner than two beads.
 void check_scene(const granvof::Scene& scene);
 
+// Diameter of a bead: that of the grains, times reference.coarse_graining [m].
+double bead_diameter(const granvof::Scene& scene);
+// Step of the beads, the same share of their Rayleigh time (proportional to the diameter) at any size [s].
+double bead_dt(const granvof::Scene& scene);
 double depth_of(const granvof::Scene& scene);  // of the slice, or of the tank in 3D [m]
 FluidSettings fluid_settings(const granvof::Scene& scene, const std::string& scratch);
 BeadSettings bead_settings(const granvof::Scene& scene, const std::string& scratch);

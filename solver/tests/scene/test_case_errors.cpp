@@ -60,6 +60,15 @@ const std::vector<Refused> values{
     {"reference_dt",
      {"reference.dt=1e-3"},
      {"reference.dt: got 0.001", "at most reference.fluid_dt = 0.0001 s"}},
+    {"coarse_reference_dt",
+     {"reference.dt=4e-5", "reference.coarse_graining=4"},
+     {"reference.dt: got 4e-05", "at most reference.fluid_dt / reference.coarse_graining = 2.5e-05 s"}},
+    {"finer_than_grains",
+     {"reference.coarse_graining=0.5"},
+     {"reference.coarse_graining: got 0.5", "a number in [1, 10]"}},
+    {"far_coarser",
+     {"reference.coarse_graining=11"},
+     {"reference.coarse_graining: got 11", "a number in [1, 10]"}},
 };
 const std::vector<Refused> keys{
     {"misspelt",

@@ -161,6 +161,21 @@ TEST(Hash, ChangesWithPhysicsGeometryAndReference) {
   }
 }
 
+// Records carry this hash. Whoever changes it makes all of them stale: a new key is to be `came_later`.
+TEST(Hash, OfTheReferenceIsThatOfTheRecords) {
+  EXPECT_EQ(small().reference_hash, "017bb24a0bccf9b4");
+}
+
+// Given or not: at its default such a key leaves a record current, at any other value it does not.
+TEST(Hash, AKeyThatCameAfterTheRecordsCountsOnlyAwayFromItsDefault) {
+  const Scene named = small({"reference.coarse_graining=1"});
+  EXPECT_EQ(named.hash, small().hash);
+  EXPECT_EQ(named.reference_hash, small().reference_hash);
+  const Scene coarse = small({"reference.coarse_graining=2"});
+  EXPECT_NE(coarse.hash, small().hash);
+  EXPECT_NE(coarse.reference_hash, small().reference_hash);
+}
+
 TEST(Hash, OfTheReferenceIgnoresTheContinuumsModel) {
   for (const char* change : {"model.drag=false", "contact.stiffness=1e7"}) {
     EXPECT_NE(small({change}).hash, small().hash) << change;

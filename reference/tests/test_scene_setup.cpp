@@ -1,0 +1,74 @@
+// From a case to the settings of the two sides.
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "reference/demvof/program/scene_setup.hpp"
+#include "reference/tests/small_case.hpp"
+#include "solver/scene/case_error.hpp"
+
+namespace {
+
+using demvof::test::small;
+
+constexpr double d = 0.8e-3;
+
+std::string refusal(const std::vector<std::string>& overrides) {
+  try {
+    demvof::check_scene(small(overrides));
+  } catch (const granvof::CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double highest(const std::vector<double>& position) {
+  double y = 0.0;
+  for (std::size_t n = 1; n < position.size(); n += 3) y = std::max(y, position[n]);
+  return y;
+}
+
+}  // namespace
+
+TEST(SceneSetup, BeadsAreTheGrains) {
+  const demvof::BeadSettings beads = demvof::bead_settings(small(), "scratch");
+  EXPECT_DOUBLE_EQ(beads.diameter, d);
+  EXPECT_DOUBLE_EQ(beads.dt, 1e-5);
+}
+
+// Size and step follow the factor, the material does not.
+TEST(SceneSetup, CoarseGrainedBeadsAreLargerAndOfTheSameMaterial) {
+  const granvof::Scene scene = small({"reference.coarse_graining=1.5"});
+  const demvof::BeadSettings grain = demvof::bead_settings(small(), "scratch");
+  const demvof::BeadSettings bead = demvof::bead_settings(scene, "scratch");
+  EXPECT_DOUBLE_EQ(bead.diameter, 1.5 * d);
+  EXPECT_DOUBLE_EQ(bead.dt, 1.5e-5);
+  EXPECT_EQ(bead.density, grain.density);
+  EXPECT_EQ(bead.law.young, grain.law.young);
+  EXPECT_EQ(bead.law.restitution, grain.law.restitution);
+  EXPECT_EQ(bead.law.bead_friction, grain.law.bead_friction);
+
+  const demvof::ColumnSettings column = demvof::column_settings(scene, 1, {}, "scratch");
+  EXPECT_DOUBLE_EQ(column.diameter, 1.5 * d);
+  EXPECT_DOUBLE_EQ(column.dt, 1.5e-5);
+  EXPECT_EQ(column.packing, demvof::column_settings(small(), 1, {}, "scratch").packing);
+
+  const auto floor = demvof::floor_beads(scene, 1), fine = demvof::floor_beads(small(), 1);
+  EXPECT_NEAR(static_cast<double>(fine.size()) / static_cast<double>(floor.size()), 1.5 * 1.5, 0.1);
+  EXPECT_GT(highest(floor), 0.2 * d);
+  EXPECT_LE(highest(floor), 0.2 * 1.5 * d);
+}
+
+TEST(SceneSetup, ASliceThinnerThanTwoBeadsIsRefused) {
+  EXPECT_EQ(refusal({"reference.coarse_graining=2.5"}), "");
+  const std::string why = refusal({"reference.coarse_graining=2.6"});
+  EXPECT_NE(why.find("reference.slice_depth is 0.004 m, allowed: >= 0.00416 m"), std::string::npos) << why;
+}
+
+TEST(SceneSetup, WithoutLiquidNoCellHasAny) {
+  const granvof::Scene scene = small({"liquid=false"});
+  EXPECT_EQ(refusal({"liquid=false"}), "");
+  const auto alpha = demvof::initial_alpha(scene, demvof::fluid_settings(scene, "scratch"));
+  EXPECT_EQ(alpha, std::vector<double>(12 * 8, 0.0));
+}
