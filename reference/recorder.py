@@ -1,10 +1,11 @@
 """What is recorded of the DEM-VOF reference, and how a finished run becomes a record.
 
-A record is reference/results/<scene>/seed<N>/ with series.csv, fields.h5 (a few instants) and record.json: run.json of
-the run, with `case_hash` set to what the reference depends on, the seed and the versions of all parts. Records that no
-comparison may take for the scene are kept apart: controls/ (gate closed), variants/<variant>/ (another grid, depth or
-floor) and bulk-friction/ (the chute).
+A record is reference/results/<scene>/seed<N>/ with series.csv, fields.h5 (solid fraction and liquid at a few instants,
+which is what comparison and plots read) and record.json: run.json of the run, with `case_hash` set to what the reference
+depends on, the seed and the versions of all parts. Records that no comparison may take for the scene are kept apart:
+controls/ (gate closed), variants/<variant>/ (another grid, depth, floor or bead size) and bulk-friction/ (the chute).
 """
+import csv
 import json
 import shutil
 import subprocess
@@ -17,7 +18,9 @@ import h5py
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
-FIELDS_KEPT = 4  # instants of fields.h5 that go into a record: the first, the last and two between
+INSTANTS_KEPT = 4  # of fields.h5 that go into a record: the first, the last and two between
+FIELDS_KEPT = ("f_s", "alpha")
+DIGITS_KEPT = 9  # significant, of series.csv
 
 
 @dataclass(frozen=True)
@@ -140,22 +143,50 @@ def package_version(package):
 
 def kept(names):
     """First, last and two between, evenly spread."""
-    if len(names) <= FIELDS_KEPT:
+    if len(names) <= INSTANTS_KEPT:
         return list(names)
     last = len(names) - 1
-    return [names[round(n * last / (FIELDS_KEPT - 1))] for n in range(FIELDS_KEPT)]
+    return [names[round(n * last / (INSTANTS_KEPT - 1))] for n in range(INSTANTS_KEPT)]
 
 
 def slim_fields(source, target):
-    """Copies a few instants in single precision, compressed. Every other number of the file is kept as it is."""
-    with h5py.File(source) as old, h5py.File(target, "w") as new:
+    """Copies what a record keeps of fields.h5, in single precision, compressed; attributes are kept as they are."""
+    with h5py.File(source) as old, h5py.File(target, "w", libver=("v110", "v110")) as new:  # less overhead than older formats
         new.attrs.update(old.attrs)
-        for name in kept(sorted(old)):
-            group = new.create_group(name)
+        for number, name in enumerate(kept(sorted(old))):
+            group = new.create_group(f"t{number:04}")
             group.attrs.update(old[name].attrs)
-            for field, data in old[name].items():
-                group.create_dataset(field, data=data[()], dtype="f4", compression="gzip", compression_opts=9, shuffle=True)
+            for field in FIELDS_KEPT:
+                if field not in old[name]:
+                    continue
+                data = old[name][field]
+                group.create_dataset(field, data=data[()], dtype="f4", chunks=data.shape, compression="gzip", compression_opts=9,
+                                     shuffle=True)
                 group[field].attrs.update(data.attrs)
+
+
+def slim_series(source, target):
+    """Copies series.csv with fewer digits."""
+    with open(source, newline="") as file:
+        header, *rows = csv.reader(file)
+    rows = [[value and f"{float(value):.{DIGITS_KEPT}g}" for value in row] for row in rows]
+    target.write_text("".join(",".join(row) + "\n" for row in [header, *rows]))
+
+
+def slim_record(folder):
+    """Rewrites series.csv and fields.h5 of a record to what a record keeps. True if that made them smaller."""
+    smaller = False
+    for name, slim in (("series.csv", slim_series), ("fields.h5", slim_fields)):
+        path, draft = folder / name, folder / (name + ".part")
+        if not path.exists():
+            continue
+        slim(path, draft)
+        if draft.stat().st_size < path.stat().st_size:
+            draft.rename(path)
+            smaller = True
+        else:
+            draft.unlink()
+    return smaller
 
 
 def make_record(run, run_directory, case_hash, results=RESULTS):
@@ -174,7 +205,7 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     draft = folder.with_name(folder.name + ".part")
     shutil.rmtree(draft, ignore_errors=True)
     draft.mkdir(parents=True)
-    shutil.copy(run_directory / "series.csv", draft / "series.csv")
+    slim_series(run_directory / "series.csv", draft / "series.csv")
     if not run.chute:
         slim_fields(run_directory / "fields.h5", draft / "fields.h5")
     (draft / "record.json").write_text(json.dumps(facts, indent=2) + "\n")

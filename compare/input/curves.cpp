@@ -38,7 +38,7 @@ Curve excess_base_pressure(const Run& run) {
 
 std::optional<DepositShape> deposit_at(const Run& run, double scaled_time) {
   if (!run.scene.bed) return std::nullopt;
-  const auto fields = run.fields_at(scaled_time * collapse_time(column_of(run)));
+  const auto fields = run.solid_fraction_at(scaled_time * collapse_time(column_of(run)));
   if (!fields) return std::nullopt;
   return deposit_shape(
       bed_profile(fields->f_s, fields->cells, fields->spacing, run.scene.contact.solid_fraction_min));
@@ -54,7 +54,7 @@ Curve solid_level_curve(const Run& run, double level) {
   Curve curve;
   const std::size_t instants = run.field_times().size();
   for (std::size_t i = 0; i < instants; ++i) {
-    const CellFields fields = read_fields(run.directory / "fields.h5", i);
+    const CellFields fields = read_solid_fraction(run.directory / "fields.h5", i);
     const auto height = solid_level(fields.f_s, fields.cells, fields.spacing[1], level);
     if (!height) continue;
     curve.time.push_back(fields.time);

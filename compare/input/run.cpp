@@ -116,11 +116,11 @@ std::vector<double> Run::field_times() const {
   return std::filesystem::exists(file) ? read_field_times(file) : std::vector<double>();
 }
 
-std::optional<CellFields> Run::fields_at(double time) const {
+std::optional<CellFields> Run::solid_fraction_at(double time) const {
   const auto times = field_times();
   for (std::size_t i = 0; i < times.size(); ++i)
     if (std::abs(times[i] - time) <= 1e-6 * std::max(scene.times.end, std::abs(time)))
-      return read_fields(directory / "fields.h5", i);
+      return read_solid_fraction(directory / "fields.h5", i);
   return std::nullopt;
 }
 

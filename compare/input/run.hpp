@@ -37,8 +37,8 @@ struct Run {
   Curve curve(std::string_view column) const;
   // Times [s] of the instants in fields.h5; empty without one.
   std::vector<double> field_times() const;
-  // The fields of the instant `time` [s], if the run wrote one within 1e-6 of its length.
-  std::optional<CellFields> fields_at(double time) const;
+  // Solid fraction (alone) of the instant `time` [s], if the run wrote one within 1e-6 of its length.
+  std::optional<CellFields> solid_fraction_at(double time) const;
 };
 
 // Why a run cannot be compared.

@@ -17,7 +17,7 @@ RUN = recorder.Run("s1", 2)
 
 def finished_run(folder, exit_state="finished", command="demvof run cases/s1.toml --gate-closed"):
     folder.mkdir()
-    (folder / "series.csv").write_text("time [s]\n0\n1\n")
+    (folder / "series.csv").write_text("time [s],slope [deg]\n0,\n1,0.33333333333333331\n")
     (folder / "run.json").write_text(json.dumps({"program": "demvof", "scene": "s1", "case_hash": "solver's",
                                                "command": command, "monitors": {"seed": 2.0}, "exit": {"state": exit_state, "reason": "at t = 3"}}))
     with h5py.File(folder / "fields.h5", "w") as file:
@@ -25,7 +25,8 @@ def finished_run(folder, exit_state="finished", command="demvof run cases/s1.tom
         for n in range(9):
             group = file.create_group(f"t{n:04}")
             group.attrs["time"] = float(n)
-            group["f_s"] = np.full((1, 4, 5), n, dtype="f8")
+            for field in ("f_s", "alpha", "p_c", "u_c"):
+                group[field] = np.full((1, 4, 5), n, dtype="f8")
     return folder
 
 
@@ -50,12 +51,31 @@ def test_a_record_keeps_four_instants_and_says_where_it_comes_from(tmp_path):
     folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
     assert folder == tmp_path / "s1/seed2"
     with h5py.File(folder / "fields.h5") as file:
-        assert sorted(file) == ["t0000", "t0003", "t0005", "t0008"]
-        assert file["t0005"].attrs["time"] == 5.0
-        assert np.all(file["t0005/f_s"][()] == 5.0)
+        assert sorted(file) == ["t0000", "t0001", "t0002", "t0003"]  # numbered in a row, as every reader expects
+        assert [file[name].attrs["time"] for name in sorted(file)] == [0.0, 3.0, 5.0, 8.0]
+        assert np.all(file["t0002/f_s"][()] == 5.0)
+        assert sorted(file["t0002"]) == sorted(recorder.FIELDS_KEPT)
+        assert file.attrs["scene"] == "s1"
+    assert (folder / "series.csv").read_text() == "time [s],slope [deg]\n0,\n1,0.333333333\n"
     record = json.loads((folder / "record.json").read_text())
     assert (record["case_hash"], record["seed"], record["gate_closed"]) == ("abc", 2, False)
     assert set(record["parts"]) == set(recorder.PACKAGES)
+
+
+def test_a_record_of_an_earlier_version_is_slimmed_once_and_keeps_its_provenance(tmp_path):
+    folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
+    slim = {path.name: path.read_bytes() for path in folder.iterdir()}
+    for name in ("series.csv", "fields.h5"):
+        (folder / name).write_bytes((tmp_path / "run" / name).read_bytes())
+    assert recorder.slim_record(folder)
+    assert (folder / "series.csv").read_bytes() == slim["series.csv"]
+    assert (folder / "record.json").read_bytes() == slim["record.json"]
+    with h5py.File(folder / "fields.h5") as file:
+        assert len(file) == recorder.INSTANTS_KEPT and sorted(file["t0003"]) == sorted(recorder.FIELDS_KEPT)
+    once = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert sorted(once) == sorted(slim)
+    assert not recorder.slim_record(folder)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == once
 
 
 def test_a_run_that_blew_up_leaves_no_record(tmp_path):

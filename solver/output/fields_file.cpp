@@ -74,6 +74,25 @@ void write_instant(hid_t group, const CellFields& fields) {
   write_vector(group, "u_c", fields, fields.u_c);
 }
 
+// Time, grid and solid fraction.
+CellFields solid_fraction_of(hid_t file, hid_t group) {
+  CellFields fields;
+  fields.time = hdf5::read_double_attribute(group, "time");
+  const auto cells = hdf5::read_double_array_attribute(file, "cells");
+  const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
+  if (cells.size() != 3 || spacing.size() != 3) throw std::runtime_error("cells or spacing is not a triple");
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    fields.cells[d] = static_cast<int>(cells[d]);
+    fields.spacing[d] = spacing[d];
+    count *= static_cast<std::size_t>(fields.cells[d]);
+  }
+  fields.f_s = hdf5::read_doubles(group, "f_s");
+  if (fields.f_s.size() != count)
+    throw std::runtime_error(fmt::format("f_s has {} values for {} cells", fields.f_s.size(), count));
+  return fields;
+}
+
 std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
   const auto values = hdf5::read_doubles(group, name);
   std::array<std::vector<double>, 3> components;
@@ -285,17 +304,7 @@ CellFields read_fields(const fs::path& fields_h5, std::size_t index) {
   const auto file = hdf5::open_for_reading(fields_h5);
   return with_path("read", fields_h5, [&] {
     const auto group = hdf5::open_group(file, group_name(index));
-    CellFields fields;
-    fields.time = hdf5::read_double_attribute(group, "time");
-    const auto cells = hdf5::read_double_array_attribute(file, "cells");
-    const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
-    if (cells.size() != 3 || spacing.size() != 3)
-      throw std::runtime_error("cells or spacing is not a triple");
-    for (std::size_t d = 0; d < 3; ++d) {
-      fields.cells[d] = static_cast<int>(cells[d]);
-      fields.spacing[d] = spacing[d];
-    }
-    fields.f_s = hdf5::read_doubles(group, "f_s");
+    CellFields fields = solid_fraction_of(file, group);
     fields.alpha = hdf5::read_doubles(group, "alpha");
     fields.p_c = hdf5::read_doubles(group, "p_c");
     fields.theta = hdf5::read_doubles(group, "theta");
@@ -310,6 +319,13 @@ CellFields read_fields(const fs::path& fields_h5, std::size_t index) {
     }
     return fields;
   });
+}
+
+CellFields read_solid_fraction(const fs::path& fields_h5, std::size_t index) {
+  const hdf5::QuietErrors quiet;
+  const auto file = hdf5::open_for_reading(fields_h5);
+  return with_path("read", fields_h5,
+                   [&] { return solid_fraction_of(file, hdf5::open_group(file, group_name(index))); });
 }
 
 }  // namespace granvof

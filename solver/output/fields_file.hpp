@@ -55,6 +55,9 @@ class FieldsFile {
 std::vector<double> read_field_times(const std::filesystem::path& fields_h5);
 // Instant number `index`. Throws OutputError.
 CellFields read_fields(const std::filesystem::path& fields_h5, std::size_t index);
+// The same with time, grid and solid fraction alone: what a record of the reference holds of a run's fields
+// is not all of them. Throws OutputError.
+CellFields read_solid_fraction(const std::filesystem::path& fields_h5, std::size_t index);
 
 // Throws std::invalid_argument naming the array whose size is not that of `fields.cells`.
 // `p_s` may be empty everywhere, component 2 of the velocities where there is one layer of cells.

@@ -2,6 +2,7 @@
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/fields_file.hpp"
+#include "solver/output/hdf5_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/tests/output/samples.hpp"
 
@@ -47,12 +48,39 @@ TEST_P(FieldsFileOf, ReadsBackWhatWasWrittenLinkedAndJoined) {
     EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0, 1.0 / 3.0}));
     expect_same(read_fields(path, 0), first);
     expect_same(read_fields(path, 1), second);
+    const CellFields part = read_solid_fraction(path, 1);
+    EXPECT_EQ(part.time, second.time);
+    EXPECT_EQ(part.cells, second.cells);
+    EXPECT_EQ(part.f_s, second.f_s);
     EXPECT_THROW(read_fields(path, 2), OutputError);
   };
   check();
   ASSERT_TRUE(file.join());
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "fields"));
   check();
+}
+
+// As a record of the reference: some fields only.
+TEST(FieldsFile, TheSolidFractionIsReadWithoutTheOtherFields) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "fields.h5";
+  {
+    const auto file = hdf5::create_in_memory();
+    hdf5::write_attribute(file, "cells", std::vector<int>{2, 1, 1});
+    hdf5::write_attribute(file, "spacing", std::vector<double>{0.1, 0.1, 1.0});
+    const auto group = hdf5::create_group(file, "t0000");
+    hdf5::write_attribute(group, "time", 0.5);
+    hdf5::write_compressed(group, "f_s", std::vector<hsize_t>{1, 1, 2}, std::vector<float>{0.25F, 0.5F});
+    const auto wrong = hdf5::create_group(file, "t0001");
+    hdf5::write_attribute(wrong, "time", 1.0);
+    hdf5::write_compressed(wrong, "f_s", std::vector<hsize_t>{1, 1, 1}, std::vector<float>{0.25F});
+    write_file_atomically(path, hdf5::content_of(file));
+  }
+  EXPECT_EQ(read_solid_fraction(path, 0).f_s, (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(read_solid_fraction(path, 0).time, 0.5);
+  EXPECT_THROW(read_fields(path, 0), OutputError);
+  EXPECT_NE(message_of<OutputError>([&] { read_solid_fraction(path, 1); }).find("1 values for 2 cells"),
+            std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, FieldsFileOf, testing::Values(2, 3));
