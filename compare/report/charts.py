@@ -114,13 +114,24 @@ OTHER_MARKERS = ["*", "X", "h", "d", "8"]
 
 
 def draw_others(axis, chart, panel):
-    """What other programs made of the case, and the reference at other resolutions: one point each."""
-    for i, (other, error) in enumerate(zip(chart.get("others", []), panel.get("other_errors", []))):
-        if error is None:
+    """What other programs made of the case, and the reference at other resolutions: points, joined to a line where they have one."""
+    lines = {}
+    for other, error in zip(chart.get("others", []), panel.get("other_errors", [])):
+        named = other["name"] + (f" ({other['about']})" if other["about"] else "")
+        marked = lines.setdefault(other.get("line") or named, [])
+        if error is not None:
+            marked.append((other["core_s_per_s"], shown_at(panel, error), other["name"].rpartition(", ")[2]))
+    for i, (name, points) in enumerate(lines.items()):
+        if not points:
             continue
-        axis.plot([other["core_s_per_s"]], [shown_at(panel, error)], linestyle="none", marker=OTHER_MARKERS[i % len(OTHER_MARKERS)],
-                  markersize=9, markerfacecolor="white", markeredgecolor=style.BLACK, markeredgewidth=1.1,
-                  label=other["name"] + (f" ({other['about']})" if other["about"] else ""))
+        points.sort()
+        joined = len(points) > 1
+        axis.plot([x for x, _, _ in points], [y for _, y, _ in points], linestyle="--" if joined else "none", linewidth=0.9,
+                  color=style.BLACK, marker=OTHER_MARKERS[i % len(OTHER_MARKERS)], markersize=9, markerfacecolor="white",
+                  markeredgewidth=1.1, label=name)
+        for x, y, mark in points if joined else []:
+            axis.annotate(mark, (x, y), textcoords="offset points", xytext=(0, -12), ha="center", fontsize=6.5,
+                          path_effects=[style.HALO])
 
 
 def draw_failed(axis, chart, looks, height):

@@ -118,7 +118,7 @@ void judge_others(ChartResult& result, const std::vector<Recorded>& all) {
                             : std::nullopt);
     }
     if (!cost) continue;
-    result.others.push_back({one.other.name, one.other.records, one.other.about, *cost});
+    result.others.push_back({one.other.name, one.other.records, one.other.about, one.other.line, *cost});
     if (one.other.records.empty()) result.dem_cost = cost;
     for (std::size_t i = 0; i < errors.size(); ++i) result.panels[i].other_errors.push_back(errors[i]);
   }

@@ -27,7 +27,7 @@ struct ChartPoint {
 
 // What others made of the case, as it is recorded.
 struct OtherPoint {
-  std::string name, source, about;
+  std::string name, source, about, line;
   double cost = 0.0;  // [core-s per simulated s]
 };
 

@@ -108,6 +108,7 @@ std::string charts_json(const std::vector<ChartResult>& results, const Study& st
       chart["others"].push_back({{"name", other.name},
                                  {"source", other.source},
                                  {"about", other.about},
+                                 {"line", other.line},
                                  {"core_s_per_s", other.cost}});
     for (const PanelResult& panel : result.panels) chart["panels"].push_back(json_panel(panel));
     json["charts"].push_back(std::move(chart));

@@ -35,9 +35,10 @@ Method read_method(const TomlEntry& entry) {
 }
 
 Other read_other(const TomlEntry& entry) {
-  entry.allow_only({"name", "records", "set", "about"});
+  entry.allow_only({"name", "records", "set", "about", "line"});
   auto other = read_named<Other>(entry);
   if (entry.has("records")) other.records = entry.text("records");
+  if (entry.has("line")) other.line = entry.text("line");
   return other;
 }
 

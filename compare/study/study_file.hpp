@@ -27,6 +27,7 @@ struct Other {
   std::string records;           // below reference/results: RECORDS/CASE/, empty: CASE/
   std::vector<std::string> set;  // overrides of the case that these runs had
   std::string about;
+  std::string line;  // the points of one line are joined; empty: a point by itself
 };
 
 // Overrides that depend on the scene.

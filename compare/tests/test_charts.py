@@ -57,6 +57,22 @@ def test_other_programs_are_points_where_they_can_be_judged(drawn):
     assert "demvof" not in lines
 
 
+def test_points_of_others_on_one_line_are_joined_and_marked(drawn):
+    beads = {"source": "variants/beads", "about": "", "line": "coarse-grained beads"}
+    content = study(others=[{"name": "demvof, k = 1.5", "core_s_per_s": 80.0} | beads, {"name": "demvof, k = 2", "core_s_per_s": 40.0} | beads,
+                            {"name": "demvof, k = 3", "core_s_per_s": 20.0} | beads,
+                            {"name": "parcels", "source": "", "about": "", "line": "", "core_s_per_s": 30.0}])
+    content["charts"][0]["panels"][0]["other_errors"] = [0.1, 0.2, None, 0.3]
+    charts.draw_all(content, None)
+    axis = drawn[0].axes[0]
+    lines = {line.get_label(): line for line in axis.get_lines()}
+    assert list(lines["coarse-grained beads"].get_xdata()) == [40.0, 80.0]
+    assert list(lines["coarse-grained beads"].get_ydata()) == [0.2, 0.1]
+    assert lines["parcels"].get_linestyle() == "None"
+    marks = {text.get_text() for text in axis.texts}
+    assert {"k = 1.5", "k = 2"} <= marks and not {"k = 3", "parcels"} & marks
+
+
 def test_what_was_not_run_is_shown_from_what_is_kept(tmp_path):
     write = lambda path, content: (path.parent.mkdir(parents=True, exist_ok=True), path.write_text(json.dumps(content)))
     write(tmp_path / "out/charts/points.json", study())

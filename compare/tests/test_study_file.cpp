@@ -21,6 +21,7 @@ other_model = true
 name = "parcels"
 records = "peers/parcels"
 set = ["reference.cell=0.002"]
+line = "parcels of a kind"
 [[part]]
 name = "no LES"
 set = ["model.les=false"]
@@ -57,6 +58,7 @@ TEST(StudyFile, ReadsMethodsPartsAndCharts) {
   EXPECT_TRUE(study.methods[2].other_model);
   ASSERT_EQ(study.others.size(), 1u);
   EXPECT_EQ(study.others[0].records, "peers/parcels");
+  EXPECT_EQ(study.others[0].line, "parcels of a kind");
   EXPECT_EQ(methods_of(study, nullptr).size(), 3u);
   const auto shown = methods_of(study, &study.charts.at(0));
   ASSERT_EQ(shown.size(), 2u);
