@@ -66,6 +66,12 @@ TEST(SceneSetup, ASliceThinnerThanTwoBeadsIsRefused) {
   EXPECT_NE(why.find("reference.slice_depth is 0.004 m, allowed: >= 0.00416 m"), std::string::npos) << why;
 }
 
+TEST(SceneSetup, BeadsLargerThanTheCellsAreRefused) {
+  EXPECT_EQ(refusal({"reference.coarse_graining=3", "reference.slice_depth=0.01"}), "");
+  const std::string why = refusal({"reference.coarse_graining=3.2", "reference.slice_depth=0.01"});
+  EXPECT_NE(why.find("beads of 0.00256 m are larger than the fluid's cells"), std::string::npos) << why;
+}
+
 TEST(SceneSetup, WithoutLiquidNoCellHasAny) {
   const granvof::Scene scene = small({"liquid=false"});
   EXPECT_EQ(refusal({"liquid=false"}), "");

@@ -84,6 +84,12 @@ void check_scene(const Scene& scene) {
       if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
     }
   }
+  if (bead_diameter(scene) > scene.reference->cell) {
+    refuse(
+        scene,
+        fmt::format("beads of {:.6g} m are larger than the fluid's cells; allowed: reference.cell = {:.6g} m",
+                    bead_diameter(scene), scene.reference->cell));
+  }
   if (flat(scene) && depth_of(scene) < thinnest_slice * bead_diameter(scene)) {
     refuse(scene, fmt::format("reference.slice_depth is {:.6g} m, allowed: >= {:.6g} m, {} bead diameters",
                               depth_of(scene), thinnest_slice * bead_diameter(scene), thinnest_slice));

@@ -14,7 +14,8 @@ namespace demvof {
 void check_beads(const granvof::Scene& scene);
 
 // The same, and for what else demvof does not compute, naming the key: a scene without a bed,
-// periodic or moving walls, a sloping bed, a slice thinner than two beads.
+// periodic or moving walls, a sloping bed, beads larger than the
+// fluid's cells, a slice thinner than two beads.
 void check_scene(const granvof::Scene& scene);
 
 // Diameter of a bead: that of the grains, times reference.coarse_graining [m].
