@@ -5,7 +5,7 @@ Leaves charts.json beside the pictures, the section of the report (sections.py),
 there are (SCENE/ablate.json of `granvof-compare ablate`, SCENE.json of `granvof-compare advise`) as tables.
 
 --keep DIR copies what was drawn from, a few JSON files, to DIR (compare/kept): the report of a clone in which no chart was
-run shows these, with their version and date.
+run shows these, with their version and date. A chart that was not drawn stays as it was kept.
 """
 
 import argparse
@@ -267,24 +267,43 @@ def from_kept(kept, directory):
     path = directory / "charts.json"
     shown = json.loads(path.read_text())
     shown["title"] += " (kept results)"
-    shown["text"].insert(0, f"Not run here: results of {shown['commit']} of {shown['date'][:10]}, kept in the repository. "
-                            "`make charts` runs them anew.")
+    shown["text"].insert(0, f"Not run here: results kept in the repository, {made(content)}. `make charts` runs them anew.")
     path.write_text(json.dumps(shown, indent=1) + "\n")
     return True
 
 
+def made(content):
+    """"s1, canary: VERSION, DATE; s2: ..."."""
+    cases = {}
+    for chart in content["charts"]:
+        versions = ", ".join(sorted({point["version"] for point in chart["points"] if point["version"]}))
+        cases.setdefault(f"{versions}, {chart.get('date', content['date'])[:10]}", []).append(chart["case"])
+    return "; ".join(f"{', '.join(of)}: {how}" for how, of in cases.items())
+
+
+def merged(content, kept):
+    """`content`, and the charts that only `kept` has; each with its own date."""
+    if kept is None:
+        return content
+    charts = {chart["case"]: {"date": each["date"]} | chart for each in (kept, content) for chart in each["charts"]}
+    names = {method["name"] for method in content["methods"]}
+    methods = content["methods"] + [method for method in kept["methods"] if method["name"] not in names]
+    return content | {"methods": methods, "charts": list(charts.values())}
+
+
+def write_kept(path, content):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(content, separators=(",", ":")) + "\n")
+
+
 def keep(options, beside):
-    for source, target in [(options.charts, "charts"), (options.ablations or beside / "ablate", "ablate"),
-                           (options.advice or beside / "advise", "advise")]:
+    write_kept(options.keep / "charts/points.json", merged(load(options.charts), load(options.keep / "charts")))
+    for source, target in [(options.ablations or beside / "ablate", "ablate"), (options.advice or beside / "advise", "advise")]:
         for path in sorted(source.glob("**/*.json")):
-            if path.name != "charts.json":
-                copy = options.keep / target / path.relative_to(source)
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                copy.write_text(json.dumps(json.loads(path.read_text()), separators=(",", ":")) + "\n")
+            write_kept(options.keep / target / path.relative_to(source), json.loads(path.read_text()))
     stability = beside / "stability/stability.json"
     if stability.exists():
-        (options.keep / "stability").mkdir(parents=True, exist_ok=True)
-        (options.keep / "stability/stability.json").write_text(json.dumps(json.loads(stability.read_text()), separators=(",", ":")) + "\n")
+        write_kept(options.keep / "stability/stability.json", json.loads(stability.read_text()))
 
 
 def shrink(source, target):

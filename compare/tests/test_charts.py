@@ -94,6 +94,20 @@ def test_what_was_not_run_is_shown_from_what_is_kept(tmp_path):
     assert not charts.from_kept(tmp_path / "nothing", tmp_path / "clone/charts")
 
 
+def test_a_chart_that_was_not_drawn_stays_as_it_is_kept(tmp_path):
+    write = lambda path, content: (path.parent.mkdir(parents=True, exist_ok=True), path.write_text(json.dumps(content)))
+    older = study() | {"date": "2025-01-02T00:00:00Z", "methods": METHODS[:1] + [METHODS[1] | {"name": "gone"}]}
+    older["charts"] += study(case="s2")["charts"]
+    write(tmp_path / "kept/charts/points.json", older)
+    write(tmp_path / "out/charts/points.json", study(left_out=[]))
+    for _ in range(2):  # what was kept beside others is kept again
+        assert charts.main(["--charts", str(tmp_path / "out/charts"), "--keep", str(tmp_path / "kept")]) == 0
+    kept = charts.load(tmp_path / "kept/charts")
+    assert [(chart["case"], chart["date"][:4], len(chart["left_out"])) for chart in kept["charts"]] == [("s1", "2026", 0), ("s2", "2025", 1)]
+    assert [method["name"] for method in kept["methods"]] == ["first", "second", "gone"]
+    assert charts.made(kept) == "s1: 0.1.0 (abc), 2026-01-02; s2: 0.1.0 (abc), 2025-01-02"
+
+
 def test_a_chart_without_a_reference_is_not_drawn(drawn):
     content = study()
     content["charts"][0]["panels"] = content["charts"][0]["panels"][1:]
