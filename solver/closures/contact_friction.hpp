@@ -25,4 +25,12 @@ inline double inertial_friction(double p_enduring, double strain_norm, double mu
   return fast > 0.0 ? mu_s + (mu_2 - mu_s) * fast / (fast + slow) : mu_s;
 }
 
+// Friction coefficient below which a layer of thickness h [m] on a rough floor comes to rest [-]: mu_s +
+// (mu_2 - mu_s) / (1 + h / (L d_s)), the inverse of h_stop(theta) (Pouliquen, Phys. Fluids 11 (1999) 542). L
+// = 1.65 belongs to mu_2, I_0 of inertial_friction(): both are fits of the same flows (Jop et al., J. Fluid
+// Mech. 541 (2005) 167). Limits: mu_2 for h -> 0, mu_s for a thick bed. h >= 0, length = L > 0 [-].
+inline double arrest_friction(double h, double mu_s, double mu_2, double length, double d_s) {
+  return mu_s + (mu_2 - mu_s) / (1.0 + h / (length * d_s));
+}
+
 }  // namespace granvof::closures

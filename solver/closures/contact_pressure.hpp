@@ -14,10 +14,12 @@ struct PressureAndSlope {
   double slope;  // dP / d f_s [Pa]
 };
 
-// P_s^ES [Pa], eq (13), with the leading f_s as printed. The argument of the sine is frozen beyond f_s,max,
-// where the printed form would fall again.
-inline PressureAndSlope elastic_pressure(double f_s, const Contact& c) {
-  const double excess = f_s - c.solid_fraction_min;
+// P_s^ES [Pa], eq (13), with the leading f_s as printed. The argument of the sine is frozen where the printed
+// form would fall again, beyond f_s,max. `packing` is the solid fraction at which the grains touch: f_s,min
+// in the paper, a state of the bed where shear changes it (shear_dilatancy.hpp), and the law then moves with
+// it.
+inline PressureAndSlope elastic_pressure(double f_s, const Contact& c, double packing) {
+  const double excess = f_s - packing;
   if (excess <= 0.0) return {0.0, 0.0};
   const double width = c.solid_fraction_max - c.solid_fraction_min;
   const double share = excess / width;
@@ -31,6 +33,10 @@ inline PressureAndSlope elastic_pressure(double f_s, const Contact& c) {
   return {value, slope};
 }
 
+inline PressureAndSlope elastic_pressure(double f_s, const Contact& c) {
+  return elastic_pressure(f_s, c, c.solid_fraction_min);
+}
+
 // P_s^W [Pa] of grains at rest in a partly filled cell: their own weight, operators/bed_surface.hpp. resting
 // >= 0 [Pa per solid fraction]; constant beyond f_s,min, where the elastic contact carries what is more.
 inline PressureAndSlope resting_pressure(double f_s, double resting, const Contact& c) {
@@ -41,15 +47,22 @@ inline PressureAndSlope resting_pressure(double f_s, double resting, const Conta
 inline constexpr double dense_pressure_cap = 0.005;  // least f_s0 - f_s in (15), which is singular at f_s0
 
 // P_s^D [Pa], eq (15): 15 rho_s Theta (1 - e) (a' f_s f_s0 / (f_s0 - f_s))^(2/delta) (model correction 3).
-inline PressureAndSlope dense_pressure(double f_s, double theta, double e, double rho_s, const Contact& c) {
+// f_s0 moves with `packing` as (13) does: it is the packing of a dense flow that comes to rest.
+inline PressureAndSlope dense_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                       double packing) {
   if (f_s <= 0.0 || theta <= 0.0) return {0.0, 0.0};
-  const double gap = std::max(c.dense_solid_fraction - f_s, dense_pressure_cap);
-  const bool capped = c.dense_solid_fraction - f_s <= dense_pressure_cap;
+  const double f_s0 = c.dense_solid_fraction + (packing - c.solid_fraction_min);
+  const double gap = std::max(f_s0 - f_s, dense_pressure_cap);
+  const bool capped = f_s0 - f_s <= dense_pressure_cap;
   const double power = 2.0 / c.dilatancy_exponent;
-  const double bracket = c.dilatancy_factor * f_s * c.dense_solid_fraction / gap;
+  const double bracket = c.dilatancy_factor * f_s * f_s0 / gap;
   const double value = 15.0 * rho_s * theta * (1.0 - e) * std::pow(bracket, power);
   const double log_slope = power * (1.0 / f_s + (capped ? 0.0 : 1.0 / gap));
   return {value, value * log_slope};
+}
+
+inline PressureAndSlope dense_pressure(double f_s, double theta, double e, double rho_s, const Contact& c) {
+  return dense_pressure(f_s, theta, e, rho_s, c, c.solid_fraction_min);
 }
 
 }  // namespace granvof::closures

@@ -13,10 +13,11 @@ inline constexpr double least_solid_pressure_slope =
     1.0;  // [Pa]; keeps the implicit step regular without grains
 
 // f_s >= 0. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
-// parts together are max(P_s^K, P_s^D); with `resting` > 0 max(P_s^K, P_s^D, P_s^W).
+// parts together are max(P_s^K, P_s^D); with `resting` > 0 max(P_s^K, P_s^D, P_s^W). `packing`: where the
+// grains touch, see elastic_pressure().
 inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                       bool dilatancy, double resting = 0.0) {
-  PressureAndSlope p = elastic_pressure(f_s, c);
+                                       bool dilatancy, double resting, double packing) {
+  PressureAndSlope p = elastic_pressure(f_s, c, packing);
   PressureAndSlope flow = resting_pressure(f_s, resting, c);
   if (theta > 0.0 && f_s > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
@@ -26,7 +27,7 @@ inline PressureAndSlope solid_pressure(double f_s, double theta, double e, doubl
         rho_s * theta * (1.0 + 2.0 * (1.0 + e) * f_s * (2.0 * g0 + f_s * g0_slope))};
     if (kinetic.value > flow.value) flow = kinetic;
     if (dilatancy) {
-      const PressureAndSlope dense = dense_pressure(f_s, theta, e, rho_s, c);
+      const PressureAndSlope dense = dense_pressure(f_s, theta, e, rho_s, c, packing);
       if (dense.value > flow.value) flow = dense;
     }
   }
@@ -36,16 +37,26 @@ inline PressureAndSlope solid_pressure(double f_s, double theta, double e, doubl
   return p;
 }
 
+inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                       bool dilatancy, double resting = 0.0) {
+  return solid_pressure(f_s, theta, e, rho_s, c, dilatancy, resting, c.solid_fraction_min);
+}
+
 // P_s^E = P_s^ES + P_s^EF [Pa], eqs (12)-(14): the pressure that carries friction.
 inline double enduring_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                bool dilatancy, double resting = 0.0) {
+                                bool dilatancy, double resting, double packing) {
   double borne = resting_pressure(f_s, resting, c).value;
   if (theta > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
-    if (dilatancy) borne = std::max(borne, dense_pressure(f_s, theta, e, rho_s, c).value);
+    if (dilatancy) borne = std::max(borne, dense_pressure(f_s, theta, e, rho_s, c, packing).value);
     borne = std::max(borne - kinetic_pressure(f_s, theta, e, g0, rho_s), 0.0);
   }
-  return elastic_pressure(f_s, c).value + borne;
+  return elastic_pressure(f_s, c, packing).value + borne;
+}
+
+inline double enduring_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                bool dilatancy, double resting = 0.0) {
+  return enduring_pressure(f_s, theta, e, rho_s, c, dilatancy, resting, c.solid_fraction_min);
 }
 
 }  // namespace granvof::closures

@@ -209,14 +209,15 @@ double CoupledPressure::turned_flux(double dt, const Field& f_s) {
 // Takes the law P_s(f_s) and its slope at the linearisation points.
 void CoupledPressure::linearise(const SolidPressureState& law) {
   const double *theta = law.theta.data(), *e = law.restitution.data(), *rest = law.resting.data(),
-               *pf = point_f_.data();
+               *packing = law.packing.data(), *pf = point_f_.data();
   double *pp = point_p_.data(), *slope = slope_.data();
   const double rho_s = scene_.solid.density;
   const bool dilatancy = scene_.model.dilatancy_pressure;
   const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
   const Contact& contact = scene_.contact;
   for_each(grid_.cells, [=, &contact](std::ptrdiff_t c) {
-    const auto p = closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy, rest[c]);
+    const auto p =
+        closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy, rest[c], packing[c]);
     pp[c] = p.value;
     slope[c] =
         implicit ? p.slope : closures::least_solid_pressure_slope;  // next to none: P_s stays at the point
@@ -231,7 +232,7 @@ void CoupledPressure::linearise(const SolidPressureState& law) {
 // together (the motion fixes f_s); tangents alone creep along the law, which grows like (f_s - f_s,min)^3.5.
 double CoupledPressure::move_points(double dt, const SolidPressureState& law, const Field& p_s) {
   const double *theta = law.theta.data(), *e = law.restitution.data(), *rest = law.resting.data(),
-               *dp = dp_s_.data(), *p_old = p_s.data();
+               *packing = law.packing.data(), *dp = dp_s_.data(), *p_old = p_s.data();
   const double* f_new = f_new_.data();
   double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
   const double rho_s = scene_.solid.density, tolerance = scene_.numerics.volume_tolerance;
@@ -243,7 +244,7 @@ double CoupledPressure::move_points(double dt, const SolidPressureState& law, co
   const int dim = grid_.dim;
   return max_over(grid_.cells, grid_.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
     const auto p_at = [&](double f) {
-      return closures::solid_pressure(f, theta[c], e[c], rho_s, contact, dilatancy, rest[c]);
+      return closures::solid_pressure(f, theta[c], e[c], rho_s, contact, dilatancy, rest[c], packing[c]);
     };
     const double p_lin = p_old[c] + dp[c];
     auto there = p_at(std::fmax(f_new[c], 0.0));

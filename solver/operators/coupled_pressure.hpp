@@ -23,6 +23,7 @@ struct SolidPressureState {
   const Field& theta;        // granular temperature of the old level [m2/s2]
   const Field& restitution;  // e of (18) [-]
   const Field& resting;      // weight of grains in partly filled cells [Pa per solid fraction]
+  const Field& packing;      // where the grains touch [-]
 };
 
 struct PressureReport {

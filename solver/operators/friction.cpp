@@ -71,18 +71,20 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   const bool inertial = scene_.model.contact_friction && scene_.model.friction_law == FrictionLaw::inertial;
   const double mu_2 = scene_.contact.fast_friction, i_0 = scene_.contact.inertial_number;
   const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
-  const auto viscosity_at = [=](double pressure, double norm) {
+  const auto viscosity_at = [=](double pressure, double tan_psi, double least, double norm) {
     const double coefficient =
         inertial ? closures::inertial_friction(pressure, norm, eta, mu_2, i_0, rho_s, d_s) : eta;
-    return closures::friction_viscosity(pressure, coefficient, n, norm);
+    const double with_packing = std::fmax(std::fmax(coefficient, least) + tan_psi, 0.0);
+    return closures::friction_viscosity(pressure, with_packing, n, norm);
   };
-  const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data();
+  const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),
+               *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data();
   const double* sq = strain_.squared.data();
   double *mu = mu_.data(), *lambda = lambda_.data();
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     lambda[c] = kinetic[c];
     mu[c] = kinetic[c];
-    if (p[c] > 0.0) mu[c] += viscosity_at(p[c], std::sqrt(0.5 * sq[c]));
+    if (p[c] > 0.0) mu[c] += viscosity_at(p[c], psi[c], stop[c], std::sqrt(0.5 * sq[c]));
   });
   boundary_.fill_scalar(mu_);
   boundary_.fill_scalar(lambda_);
@@ -102,18 +104,20 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
       for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
         const std::array<std::ptrdiff_t, 4> around{c, c - s, c - t, c - s - t};
         // Only cells in contact count: an average over empty cells would let the bed's surface slide.
-        double pressure = 0.0, square = 0.0, viscosity = 0.0;
+        double pressure = 0.0, tan_psi = 0.0, least = 0.0, square = 0.0, viscosity = 0.0;
         int contacts = 0;
         for (const std::ptrdiff_t a : around) {
           viscosity += 0.25 * kinetic[a];
           if (p[a] <= 0.0) continue;
           ++contacts;
           pressure += p[a];
+          tan_psi += psi[a];
+          least += stop[a];
           for (int q = 0; q < parts; ++q) square += rest[q][a];
         }
         if (contacts > 0) {
           const double norm = std::sqrt(0.5 * (square / contacts + 0.5 * g[c] * g[c]));
-          viscosity += viscosity_at(pressure / contacts, norm);
+          viscosity += viscosity_at(pressure / contacts, tan_psi / contacts, least / contacts, norm);
         }
         edge[c] = viscosity;
       });

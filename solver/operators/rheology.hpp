@@ -10,15 +10,23 @@ struct Rheology {
   Field kinetic_viscosity;  // f_s mu_s^K [Pa s], eqs (16), (20); also f_s (zeta_s^K - 2/3 mu_s^K), see
                             // friction.hpp
   Field enduring_pressure;  // P_s^E [Pa], eqs (12)-(14)
+  Field dilatancy_tangent;  // tan(psi), added to the friction coefficient [-]; 0 without shear dilatancy
+  Field arrest_friction;    // least friction coefficient, see thin_layer.hpp [-]; 0 without thin-layer arrest
   Field resting;            // weight of grains in partly filled cells [Pa per solid fraction], no ghosts;
                             // see bed_surface.hpp, 0 with bed_surface = "whole-cells"
 
   explicit Rheology(const Grid& grid)
-      : restitution(grid), kinetic_viscosity(grid), enduring_pressure(grid), resting(grid), support_(grid) {}
+      : restitution(grid),
+        kinetic_viscosity(grid),
+        enduring_pressure(grid),
+        dilatancy_tangent(grid),
+        arrest_friction(grid),
+        resting(grid),
+        support_(grid) {}
 
-  // All with ghosts filled but `resting`, from f_s, Theta, alpha and P_s of the same level.
+  // All with ghosts filled but `resting`, from f_s, Theta, alpha, P_s and packing of the same level.
   void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
-              const Field& theta, const Field& alpha, const Field& p_s);
+              const Field& theta, const Field& alpha, const Field& p_s, const Field& packing);
 
  private:
   Field support_;

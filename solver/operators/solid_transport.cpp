@@ -39,8 +39,8 @@ void transport_solid(const Grid& grid, double dt, const Field& f_s, const FaceFi
   subtract_divergence(grid, dt, flux_s, f_s_new);
 }
 
-void transport_colour(const Grid& grid, double dt, const Field& f_s, const Field& f_s_new,
-                      const FaceField& flux_s, const Field& phi, Field& phi_new) {
+void transport_with_grains(const Grid& grid, double dt, const Field& f_s, const Field& f_s_new,
+                           const FaceField& flux_s, const Field& phi, Field& phi_new) {
   const double *f = f_s.data(), *f_new = f_s_new.data(), *p = phi.data();
   double* out = phi_new.data();
   for_each(grid.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * p[c]; });

@@ -1,4 +1,4 @@
-// Solid volume balance (1) and colour (25) from the fluxes of the pressure step.
+// Solid volume balance (1), and what the grains carry along (25), from the fluxes of the pressure step.
 #pragma once
 
 #include "solver/grid/boundary.hpp"
@@ -14,10 +14,10 @@ void keep_solid_positive(const Grid& grid, const Boundary& boundary, double dt, 
 // f_s^{n+1} = f_s^n - dt div(flux_s). Conservative to rounding.
 void transport_solid(const Grid& grid, double dt, const Field& f_s, const FaceField& flux_s, Field& f_s_new);
 
-// Eq (25): phi of the solid, upwind along flux_s; phi keeps its old value where no grains are left.
-// One ghost layer of phi must be filled.
-void transport_colour(const Grid& grid, double dt, const Field& f_s, const Field& f_s_new,
-                      const FaceField& flux_s, const Field& phi, Field& phi_new);
+// Eq (25): phi of the solid, in [0, 1], upwind along flux_s; phi keeps its old value where no grains are
+// left. One ghost layer of phi must be filled.
+void transport_with_grains(const Grid& grid, double dt, const Field& f_s, const Field& f_s_new,
+                           const FaceField& flux_s, const Field& phi, Field& phi_new);
 
 // Largest share of a cell's content that leaves it in dt: outflow Courant number of the phase with fraction
 // f. Cells that hold less than `least` are not looked at.

@@ -16,6 +16,7 @@ void for_each_field(const Grid& grid, StateType& s, Visit&& visit) {
   visit("p_s", s.p_s);
   visit("theta", s.theta);
   visit("phi", s.phi);
+  visit("packing", s.packing);
   for (int d = 0; d < grid.dim; ++d) {
     const std::string index = std::to_string(d);
     visit("u_s" + index, s.u_s[d]);

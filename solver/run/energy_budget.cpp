@@ -151,10 +151,15 @@ EnergyTerms EnergyBudget::in_cells(const State& s) const {
   const double *f = s.f_s.data(), *t = s.theta.data();
   terms.granular = grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(),
                                                 [=](std::ptrdiff_t c) { return 1.5 * rho_s * f[c] * t[c]; });
-  const auto& elastic = elastic_energy_;
-  terms.elastic = grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(),
-                                               [=, &elastic](std::ptrdiff_t c) { return elastic(f[c]); });
+  terms.elastic = elastic(s.f_s, s.packing);
   return terms;
+}
+
+double EnergyBudget::elastic(const Field& f_s, const Field& packing) const {
+  const double *f = f_s.data(), *p = packing.data();
+  const auto& energy = elastic_energy_;
+  return grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(),
+                                      [=, &energy](std::ptrdiff_t c) { return energy(f[c], p[c]); });
 }
 
 EnergyTerms EnergyBudget::stored(const State& s) const {
@@ -180,7 +185,7 @@ EnergyTerms EnergyBudget::stored(const State& s) const {
 // P_s of the step is the law's at the new f_s and the old Theta.
 EnergyBudget::PressureWork EnergyBudget::pressure_work(double dt, const State& now, const State& next,
                                                        const StepTrace& trace) const {
-  const double *f = next.f_s.data(), *theta = now.theta.data();
+  const double *f = next.f_s.data(), *theta = now.theta.data(), *packing = now.packing.data();
   const double *e = trace.rheology.restitution.data(), *div = trace.strain.divergence.data();
   const double rho_s = scene_.solid.density;
   const Contact& contact = scene_.contact;
@@ -188,9 +193,8 @@ EnergyBudget::PressureWork EnergyBudget::pressure_work(double dt, const State& n
     return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), term);
   };
   return {sum([=, &contact](std::ptrdiff_t c) {
-            return f[c] > contact.solid_fraction_min
-                       ? closures::elastic_pressure(f[c], contact).value * div[c]
-                       : 0.0;
+            return f[c] > packing[c] ? closures::elastic_pressure(f[c], contact, packing[c]).value * div[c]
+                                     : 0.0;
           }),
           sum([=, &contact](std::ptrdiff_t c) {
             const double g0 = closures::radial_distribution(f[c], contact.solid_fraction_max);
@@ -216,6 +220,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.walls = dt * (trace.viscous.walls + trace.stress.walls);
   const double of_flow = w.solid_pressure - pressure.elastic;  // kinetic and dense pressure
   t.dilatancy = of_flow - pressure.kinetic;
+  t.shear_dilatancy = trace.dilated;
   t.theta_bounds = trace.granular.bounds;
 
   t.numerical_time = w.step;
@@ -224,7 +229,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.numerical_momentum =
       -(w.explicit_work - w.gravity + dissipated - dt * trace.viscous.walls + w.moved + w.kinetic_out);
   t.numerical_stress = -(on_grains + friction + production - dt * trace.stress.walls) -
-                       (pressure.elastic + t.elastic - before.elastic);
+                       (pressure.elastic + t.elastic - before.elastic - trace.dilated);
   t.numerical_granular = -(pressure.kinetic - production + t.granular - before.granular +
                            trace.granular.collisions + trace.granular.drag);
   t.residual =

@@ -30,6 +30,7 @@ struct StepTrace {
   const FluidViscosity::Power& viscous;
   const Friction::Power& stress;
   const GranularLosses& granular;
+  double dilated;      // elastic energy that shear put into the contacts by their packing [J]
   double liquid_left;  // [m3]
 };
 
@@ -38,6 +39,8 @@ class EnergyBudget {
   EnergyBudget(const Grid& grid, const Scene& scene)
       : grid_(grid), scene_(scene), elastic_energy_(scene.contact) {}
 
+  // Stored by the contact pressure (13) [J].
+  double elastic(const Field& f_s, const Field& packing) const;
   // Stored energies of a state whose ghosts are filled.
   EnergyTerms stored(const State& s) const;
   // Terms of the step from `now`, whose energy is known, to `next`; ghosts of both filled.

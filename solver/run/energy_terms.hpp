@@ -8,7 +8,8 @@ namespace granvof {
 // Energies of a state and what changed them, all in J. Stored energies are those of the present state, all
 // other terms add up over the steps. A loss is positive when the flow loses energy by it. The budget is
 //   change of (kinetic + potential + granular + elastic)
-//     = walls + dilatancy - outflow - drag - friction - viscosity - collisions - sum(numerical) + residual.
+//     = walls + dilatancy + shear_dilatancy - outflow - drag - friction - viscosity - collisions -
+//     sum(numerical) + residual.
 struct EnergyTerms {
   double kinetic = 0.0;    // of the mean motion of both phases, on faces
   double potential = 0.0;  // of solid, liquid and gas above the floor
@@ -22,6 +23,9 @@ struct EnergyTerms {
   double outflow = 0.0;     // carried out through the open top
   double walls = 0.0;       // given by moving walls (a gain)
   double dilatancy = 0.0;   // work of P_s^EF (14), which (7) does not charge to Theta (a gain)
+
+  // Given to the contacts by shear that dilates the bed: what friction takes for it by tan(psi) (a gain).
+  double shear_dilatancy = 0.0;
 
   double numerical_time = 0.0;      // implicit steps: 1/2 m |u^{n+1} - u^n|^2
   double numerical_momentum = 0.0;  // upwind momentum, mass that crosses faces without it, explicit viscosity
@@ -66,6 +70,8 @@ inline constexpr std::array energy_terms{
     EnergyTerm{"lost_outflow", &EnergyTerms::outflow, "carried out through the open top so far"},
     EnergyTerm{"gained_walls", &EnergyTerms::walls, "given by moving walls so far"},
     EnergyTerm{"gained_dilatancy", &EnergyTerms::dilatancy, "work of P_s^EF so far, not charged to Theta"},
+    EnergyTerm{"gained_shear_dilatancy", &EnergyTerms::shear_dilatancy,
+               "given to the contacts by shear that dilates the bed so far"},
     EnergyTerm{"lost_numerical_time", &EnergyTerms::numerical_time, "lost to implicit time steps so far"},
     EnergyTerm{"lost_numerical_momentum", &EnergyTerms::numerical_momentum,
                "lost to momentum transport so far"},

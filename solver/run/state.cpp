@@ -1,5 +1,8 @@
 #include "solver/run/state.hpp"
 
+#include <cmath>
+
+#include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/run/energy_budget.hpp"
 #include "solver/scene/fill.hpp"
@@ -15,6 +18,29 @@ void for_cells(const Grid& grid, Body&& body) {
       for (int i = 0; i < l.n[0]; ++i) body(std::array<int, 3>{i, j, k}, l.index(i, j, k));
 }
 
+// A bed whose packing is a matter of its history is at rest at whatever solid fraction it has: P_s carries
+// the submerged weight above, and f_p follows from (13). Grains lighter than the fluid about them bear
+// nothing yet.
+void settle(const Grid& grid, const Scene& scene, State& s) {
+  const Layout& l = grid.cells;
+  for (int k = 0; k < l.n[2]; ++k) {
+    for (int i = 0; i < l.n[0]; ++i) {
+      double load = 0.0;
+      for (int j = l.n[1] - 1; j >= 0; --j) {
+        const std::ptrdiff_t c = l.index(i, j, k);
+        const double excess =
+            scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
+        const double weight = std::fmax(excess, 0.0) * s.f_s[c] * scene.gravity * grid.h[1];
+        if (s.f_s[c] > scene.contact.solid_fraction_min) {
+          s.p_s[c] = load + 0.5 * weight;
+          s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
+        }
+        load += weight;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 State::State(const Grid& grid)
@@ -24,6 +50,7 @@ State::State(const Grid& grid)
       p_s(grid),
       theta(grid),
       phi(grid),
+      packing(grid),
       u_s(grid),
       u_c(grid),
       u_strain(grid) {}
@@ -35,6 +62,7 @@ void State::fill_ghosts(const Boundary& boundary) {
   boundary.fill_scalar(p_s);
   boundary.fill_scalar(theta);
   boundary.fill_scalar(phi);
+  boundary.fill_scalar(packing);
   boundary.fill_velocity(u_s, Phase::solid);
   boundary.fill_velocity(u_c, Phase::fluid);
   boundary.fill_velocity(u_strain, Phase::solid);
@@ -43,6 +71,8 @@ void State::fill_ghosts(const Boundary& boundary) {
 State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary) {
   State s(grid);
   s.time = 0.0 - scene.times.hold;  // 0, not -0, without a hold
+  const double loosest = scene.contact.solid_fraction_min;
+  s.packing.fill(loosest);
   for_cells(grid, [&](const std::array<int, 3>& cell, std::ptrdiff_t c) {
     Box box;
     for (int d = 0; d < 3; ++d) box.upper[d] = (box.lower[d] = cell[d] * grid.h[d]) + grid.h[d];
@@ -67,6 +97,7 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
       }
     }
   }
+  if (scene.model.shear_dilatancy) settle(grid, scene, s);
   s.fill_ghosts(boundary);
   s.energy = EnergyBudget(grid, scene).stored(s);
   return s;

@@ -13,6 +13,7 @@ struct State {
   Field p_c, p_s;      // fluid and solid pressure [Pa]
   Field theta;         // granular temperature [m2/s2]
   Field phi;           // colour of the solid [-]
+  Field packing;       // solid fraction at which the grains touch: f_s,min but with shear dilatancy [-]
   FaceField u_s, u_c;  // velocities on faces [m/s]
   FaceField u_strain;  // u_s after the friction step: the velocity whose strain sets the next friction [m/s]
   EnergyTerms energy;  // stored now, and where it went since the start [J]
@@ -22,7 +23,8 @@ struct State {
 };
 
 // The state at the start of a scene: the bed and the liquid by volume share of each cell, both at rest, fluid
-// pressure hydrostatic, no solid pressure (the packing takes its weight in the first steps).
+// pressure hydrostatic, no solid pressure (the packing takes its weight in the first steps; with shear
+// dilatancy the bed bears it from the start).
 State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
 }  // namespace granvof

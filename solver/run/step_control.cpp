@@ -18,12 +18,12 @@ constexpr double elastic_courant =
 // Fastest elastic wave of the solid, sqrt(dP_s/df_s / rho_s) [m/s]: the fluid between the grains only slows
 // it.
 double elastic_speed(const Grid& grid, const Scene& scene, const State& s) {
-  const double *f = s.f_s.data(), *theta = s.theta.data();
+  const double *f = s.f_s.data(), *theta = s.theta.data(), *packing = s.packing.data();
   const double e = scene.solid.restitution, rho_s = scene.solid.density;
   const bool dilatancy = scene.model.dilatancy_pressure;
   const Contact& contact = scene.contact;
   const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
-    return closures::solid_pressure(f[c], theta[c], e, rho_s, contact, dilatancy).slope;
+    return closures::solid_pressure(f[c], theta[c], e, rho_s, contact, dilatancy, 0.0, packing[c]).slope;
   });
   return std::sqrt(stiffest / rho_s);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/operators/convection.hpp"
+#include "solver/operators/packing.hpp"
 #include "solver/operators/solid_transport.hpp"
 #include "solver/run/step_control.hpp"
 
@@ -50,7 +51,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
-    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s);
+    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
     drag_.update(now.u_s, now.u_c, now.alpha, inertia_);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
@@ -72,9 +73,9 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     }
   }
   cost_.time("pressure", [&] {
-    report.pressure =
-        pressure_.solve(dt, now.f_s, {now.theta, rheology_.restitution, rheology_.resting}, inertia_,
-                        drag_.beta(), aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
+    report.pressure = pressure_.solve(
+        dt, now.f_s, {now.theta, rheology_.restitution, rheology_.resting, now.packing}, inertia_,
+        drag_.beta(), aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
   report.refused_because = reason_to_refuse(now, dt, report);
   if (!report.refused_because.empty()) return report;
@@ -91,11 +92,17 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     return report;
   }
   cost_.time("transport", [&] {
-    if (scene_.model.colour) transport_colour(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
+    if (scene_.model.colour) transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
+    if (scene_.model.shear_dilatancy)
+      transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.packing, next.packing);
     report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
     boundary_.fill_scalar(next.f_s, 0.0);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
+  double dilated = 0.0;
+  if (scene_.model.shear_dilatancy) {
+    cost_.time("packing", [&] { dilated = dilate(dt, next); });
+  }
   GranularLosses granular;
   cost_.time("granular temperature", [&] {
     strain_.update(grid_, next.u_s);
@@ -103,7 +110,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
                                     strain_, next.theta);
   });
   next.fill_ghosts(boundary_);
-  cost_.time("energy budget", [&] { account_energy(now, dt, granular, report.liquid_left, next); });
+  cost_.time("energy budget", [&] { account_energy(now, dt, granular, dilated, report.liquid_left, next); });
   report.accepted = true;
   return report;
 }
@@ -198,13 +205,24 @@ bool TimeStep::bears_explicit_viscosity(double dt) const {
   return kinematic_viscosity_ * dt * inverse_squares <= explicit_viscous_number;
 }
 
-void TimeStep::account_energy(const State& now, double dt, const GranularLosses& granular, double liquid_left,
-                              State& next) {
+// Packing of the bed after the shear that friction worked on: elastic waves of the pressure step, which it
+// has not felt yet, would dilate the bed with energy from nothing. Returns what this puts into the contacts
+// [J].
+double TimeStep::dilate(double dt, State& next) {
+  boundary_.fill_velocity(next.u_strain, Phase::solid);
+  strain_.update(grid_, next.u_strain);
+  const double before = budget_.elastic(next.f_s, next.packing);
+  shear_packing(grid_, scene_.contact, dt, next.f_s, strain_, next.packing);
+  return budget_.elastic(next.f_s, next.packing) - before;
+}
+
+void TimeStep::account_energy(const State& now, double dt, const GranularLosses& granular, double dilated,
+                              double liquid_left, State& next) {
   const FluidViscosity::Power viscous = viscosity_.power(boundary_);
   const Friction::Power stress = friction_.power(mass_, next.u_strain, next.u_s);
   next.energy.add(budget_.of_step(dt, now, next,
                                   {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_,
-                                   rheology_, strain_, viscous, stress, granular, liquid_left}));
+                                   rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

@@ -47,8 +47,9 @@ class TimeStep {
   void add_to_predictor(const BodyAcceleration& extra, double dt);
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
   bool bears_explicit_viscosity(double dt) const;
-  void account_energy(const State& now, double dt, const GranularLosses& granular, double liquid_left,
-                      State& next);
+  double dilate(double dt, State& next);
+  void account_energy(const State& now, double dt, const GranularLosses& granular, double dilated,
+                      double liquid_left, State& next);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;

@@ -178,8 +178,15 @@ class Completion {
       refuse("contact.solid_fraction_min",
              fmt::format("below contact.solid_fraction_max = {}", contact.solid_fraction_max));
     }
-    if (s_.model.friction_law == FrictionLaw::inertial && contact.fast_friction < s_.solid.friction) {
+    if ((s_.model.friction_law == FrictionLaw::inertial || s_.model.thin_layer_arrest) &&
+        contact.fast_friction < s_.solid.friction) {
       refuse("contact.fast_friction", fmt::format("at least solid.friction = {}", s_.solid.friction));
+    }
+    if (s_.model.shear_dilatancy && (contact.critical_solid_fraction <= contact.solid_fraction_min ||
+                                     contact.critical_solid_fraction >= contact.solid_fraction_max)) {
+      refuse("contact.critical_solid_fraction",
+             fmt::format("between contact.solid_fraction_min = {} and contact.solid_fraction_max = {}",
+                         contact.solid_fraction_min, contact.solid_fraction_max));
     }
     if (contact.dense_solid_fraction > contact.solid_fraction_max) {
       refuse("contact.dense_solid_fraction",

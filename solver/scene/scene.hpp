@@ -74,6 +74,9 @@ struct Contact {
   double regularisation = 1e5;         // n of (17) [s]
   double fast_friction = 0.643;        // mu_2 of mu(I), tan(32.76 degrees): glass beads, Jop et al. 2006 [-]
   double inertial_number = 0.279;      // I_0 of mu(I), likewise [-]
+  double stop_length = 1.65;           // L of h_stop in grain diameters, likewise [-]
+  double critical_solid_fraction = 0.582;  // f_c, packing under slow shear: glass beads, Pailha 2009 [-]
+  double dilatancy_slope = 4.09;           // K_psi = d tan(psi) / d f_p, likewise [-]
   bool operator==(const Contact&) const = default;
 };
 
@@ -122,7 +125,9 @@ struct Model {
   bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
   bool contact_friction = true;    // tau_s^E, eq (17)
   FrictionLaw friction_law = FrictionLaw::constant;
-  bool colour = true;  // eq (25)
+  bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
+  bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
+  bool colour = true;              // eq (25)
   bool operator==(const Model&) const = default;
 };
 

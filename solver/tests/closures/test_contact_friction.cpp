@@ -75,5 +75,17 @@ TEST(InertialFriction, GrowsWithRateAndFallsWithPressure) {
   }
 }
 
+// The layer that stops on a slope is h_stop = L d (tan theta_2 - tan theta) / (tan theta - tan theta_1),
+// Pouliquen 1999.
+TEST(ArrestFriction, IsTheSlopeOnWhichALayerStops) {
+  const double mu_s = 0.38, mu_2 = 0.643, length = 1.65, d = 5e-4;
+  for (const double slope : {0.39, 0.45, 0.5, 0.6}) {
+    const double h_stop = length * d * (mu_2 - slope) / (slope - mu_s);
+    EXPECT_NEAR(arrest_friction(h_stop, mu_s, mu_2, length, d), slope, 1e-12) << slope;
+  }
+  EXPECT_EQ(arrest_friction(0.0, mu_s, mu_2, length, d), mu_2);
+  EXPECT_NEAR(arrest_friction(1e9, mu_s, mu_2, length, d), mu_s, 1e-9);
+}
+
 }  // namespace
 }  // namespace granvof::closures

@@ -43,8 +43,9 @@ struct Step {
         if (inertia.f_s[d][c] < least_solid_fraction) u_s[d][c] = u_c[d][c];
       });
     CoupledPressure pressure(s.grid, s.scene, s.boundary, s.communicator);
-    report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid)}, inertia, drag.beta(), aperture, u_s,
-                            u_c, p_c, p_s, flux_s, flux_c);
+    const Field touching(s.grid, s.scene.contact.solid_fraction_min);
+    report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid), touching}, inertia, drag.beta(),
+                            aperture, u_s, u_c, p_c, p_s, flux_s, flux_c);
   }
   // Both velocities after a time dt of free fall.
   void fall(double dt) {

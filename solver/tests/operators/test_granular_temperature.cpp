@@ -38,7 +38,8 @@ struct Gas {
   }
   // f_s stays as it is: what the local balance does to Theta alone.
   void advance(double dt) {
-    rheology.update(s.grid, s.scene, s.boundary, f_s, theta, Field(s.grid, 1.0), Field(s.grid));
+    rheology.update(s.grid, s.scene, s.boundary, f_s, theta, Field(s.grid, 1.0), Field(s.grid),
+                    Field(s.grid, s.scene.contact.solid_fraction_min));
     temperature.advance(dt, theta, f_s, f_s, flux, beta, rheology, strain, next);
     std::swap(theta, next);
     s.boundary.fill_scalar(theta);
@@ -189,7 +190,8 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       s.boundary.fill_scalar(f, 0.0);
       s.boundary.fill_scalar(theta);
       Rheology rheology(s.grid);
-      rheology.update(s.grid, s.scene, s.boundary, f, theta, Field(s.grid, 1.0), Field(s.grid));
+      rheology.update(s.grid, s.scene, s.boundary, f, theta, Field(s.grid, 1.0), Field(s.grid),
+                      Field(s.grid, s.scene.contact.solid_fraction_min));
       FaceField u = s.random_faces(-30.0, 30.0);
       s.boundary.fill_velocity(u, Phase::solid);
       StrainRate strain(s.grid);

@@ -179,11 +179,11 @@ TEST(Colour, UniformStaysUniformAndShareOfGrainsIsConserved) {
   const FaceField flux = flux_of(s, SolidFlux::upwind, f, s.random_faces(-1.0, 1.0), 0.02);
   Field f_new(s.grid), phi = s.random_cells(0.7, 0.7), phi_new(s.grid);
   transport_solid(s.grid, 0.02, f, flux, f_new);
-  transport_colour(s.grid, 0.02, f, f_new, flux, phi, phi_new);
+  transport_with_grains(s.grid, 0.02, f, f_new, flux, phi, phi_new);
   s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(phi_new[c], 0.7, 1e-14); });
 
   phi = s.random_cells(0.0, 1.0);
-  transport_colour(s.grid, 0.02, f, f_new, flux, phi, phi_new);
+  transport_with_grains(s.grid, 0.02, f, f_new, flux, phi, phi_new);
   EXPECT_GE(s.smallest(phi_new), 0.0);
   EXPECT_LE(s.largest(phi_new), 1.0);
   double before = 0.0, after = 0.0, moved = 0.0;
@@ -200,7 +200,7 @@ TEST(Colour, KeepsItsValueWhereNoGrainsAreLeft) {
   Tank s(unit_scene(2, 4));
   const Field f(s.grid, 0.0), phi = s.random_cells(0.4, 0.4);
   Field phi_new(s.grid);
-  transport_colour(s.grid, 0.02, f, f, FaceField(s.grid), phi, phi_new);
+  transport_with_grains(s.grid, 0.02, f, f, FaceField(s.grid), phi, phi_new);
   s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_EQ(phi_new[c], 0.4); });
 }
 

@@ -13,7 +13,7 @@ using test::column_scene;
 using test::Simulation;
 
 double all_losses(const EnergyTerms& e) {
-  return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.residual;
+  return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.shear_dilatancy - e.residual;
 }
 
 // Energies and work were computed apart from each other: their sum is an identity.
@@ -41,6 +41,19 @@ TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
     EXPECT_GE(run.now.energy.viscosity, 0.0);
     EXPECT_GE(run.now.energy.numerical_time, 0.0);
   }
+}
+
+// Shear dilates a dense bed: the contacts gain what friction takes for it by tan(psi), which is a part of all
+// it takes.
+TEST(EnergyBudget, ClosesWithShearDilatancy) {
+  Simulation run(column_scene({"model.shear_dilatancy=true", "bed.solid_fraction=0.61"}));
+  const EnergyTerms start = run.now.energy;
+  run.until(0.1);
+  if (::testing::Test::HasFatalFailure()) return;
+  const EnergyTerms& now = run.now.energy;
+  expect_closed(start, now, 1e-3);
+  EXPECT_GT(now.shear_dilatancy, 0.01 * now.friction);
+  EXPECT_LT(now.shear_dilatancy, 0.5 * now.friction);
 }
 
 TEST(EnergyBudget, ClosesInThreeDimensions) {
@@ -171,16 +184,19 @@ series_interval = 5
   EXPECT_NEAR(now.kinetic - before.kinetic, 0.0, 1e-6 * power);
 }
 
-// Stored by (13): P = f dE/df - E.
+// Stored by (13): P = f dE/df - E, wherever the grains touch.
 TEST(EnergyBudget, ElasticEnergyIsTheIntegralOfItsPressure) {
   const Contact contact;
   const closures::ElasticEnergy energy(contact);
-  EXPECT_EQ(energy(0.5), 0.0);
-  EXPECT_EQ(energy(contact.solid_fraction_min), 0.0);
-  for (const double f : {0.574, 0.58, 0.60, 0.61, 0.625, 0.64, 0.66}) {
-    const double step = 1e-5, slope = (energy(f + step) - energy(f - step)) / (2.0 * step);
-    const double pressure = closures::elastic_pressure(f, contact).value;
-    EXPECT_NEAR(f * slope - energy(f), pressure, 2e-4 * pressure) << f;
+  for (const double packing : {contact.solid_fraction_min, 0.59, 0.62}) {
+    EXPECT_EQ(energy(0.5, packing), 0.0);
+    EXPECT_EQ(energy(packing, packing), 0.0);
+    for (const double excess : {0.004, 0.01, 0.03, 0.04, 0.055, 0.07, 0.09}) {
+      const double f = packing + excess, step = 1e-5;
+      const double slope = (energy(f + step, packing) - energy(f - step, packing)) / (2.0 * step);
+      const double pressure = closures::elastic_pressure(f, contact, packing).value;
+      EXPECT_NEAR(f * slope - energy(f, packing), pressure, 2e-4 * pressure) << f << " " << packing;
+    }
   }
 }
 

@@ -1,0 +1,29 @@
+#include "solver/operators/thin_layer.hpp"
+
+#include "solver/closures/contact_friction.hpp"
+
+namespace granvof {
+
+void arrest_thin_layers(const Grid& grid, const Scene& scene, const Field& f_s, Field& friction) {
+  friction.fill(0.0);
+  const Side& floor = scene.sides[bottom];
+  if (floor.kind != SideKind::wall || floor.solid.kind != WallKind::no_slip || !scene.model.contact_friction)
+    return;
+  const double mu_s = scene.solid.friction, mu_2 = scene.contact.fast_friction, d_s = scene.solid.diameter;
+  const double length = scene.contact.stop_length, packed = scene.contact.solid_fraction_min, h = grid.h[1];
+  const double* f = f_s.data();
+  double* out = friction.data();
+  const std::ptrdiff_t up = grid.stride(1);
+  const int rows = grid.cells.n[1];
+  Range lowest = grid.all_cells();
+  lowest.upper[1] = 1;
+  for_each(grid.cells, lowest, [=](std::ptrdiff_t c) {
+    int top = 0;
+    double grains = 0.0;
+    while (top < rows && f[c + top * up] >= 0.5 * packed) grains += f[c + top++ * up];
+    const double stop = closures::arrest_friction(grains / packed * h, mu_s, mu_2, length, d_s);
+    for (int j = 0; j < top; ++j) out[c + j * up] = stop;
+  });
+}
+
+}  // namespace granvof

@@ -1,0 +1,49 @@
+// The packing field under shear.
+#include <gtest/gtest.h>
+
+#include "solver/closures/shear_dilatancy.hpp"
+#include "solver/operators/packing.hpp"
+#include "solver/tests/operators/tank.hpp"
+
+namespace granvof {
+namespace {
+
+using test::Tank;
+using test::unit_scene;
+
+constexpr double dt = 0.01, rate = 20.0;  // [s], [1/s]
+
+// Packing of a middle cell after dt of u = (x, y) -> (a x + b y, c y), f_s and packing uniform.
+double after(double f_s, double packing, double a, double b, double c) {
+  const Tank s(unit_scene(2, 6));
+  StrainRate strain(s.grid);
+  strain.update(s.grid, s.faces({[=](const Vec3& x) { return a * x[0] + b * x[1]; },
+                                 [=](const Vec3& x) { return c * x[1]; }, [](const Vec3&) { return 0.0; }}));
+  const Field f(s.grid, f_s);
+  Field p(s.grid, packing);
+  shear_packing(s.grid, s.scene.contact, dt, f, strain, p);
+  return p[s.grid.cells.index(3, 3, 0)];
+}
+
+TEST(Packing, SimpleShearFollowsTheLaw) {
+  for (const double packing : {0.575, 0.61})
+    EXPECT_NEAR(after(0.6, packing, 0.0, rate, 0.0), closures::sheared_packing(packing, rate * dt, Contact{}),
+                1e-12);
+}
+
+TEST(Packing, PureShearIsShear) {
+  EXPECT_NEAR(after(0.6, 0.61, 0.5 * rate, 0.0, -0.5 * rate),
+              closures::sheared_packing(0.61, rate * dt, Contact{}), 1e-12);
+}
+
+TEST(Packing, RestLeavesItAlone) {
+  EXPECT_DOUBLE_EQ(after(0.6, 0.61, 0.0, 0.0, 0.0), 0.61);
+}
+
+TEST(Packing, DispersedGrainsForget) {
+  EXPECT_EQ(after(0.5, 0.61, 0.0, rate, 0.0), Contact{}.solid_fraction_min);
+  EXPECT_EQ(after(0.0, 0.61, 0.0, 0.0, 0.0), Contact{}.solid_fraction_min);
+}
+
+}  // namespace
+}  // namespace granvof
