@@ -112,12 +112,13 @@ std::vector<Key> contact_keys() {
           "mu_2 of mu(I) and h_stop; at least solid.friction with friction_law = \"inertial\" or "
           "thin_layer_arrest."),
       key("contact.inertial_number", "-", positive, MEMBER(scene.contact.inertial_number), "I_0 of mu(I)."),
-      key("contact.stop_length", "-", positive, MEMBER(scene.contact.stop_length),
-          "L of h_stop, in grain diameters, with thin_layer_arrest."),
-      key("contact.critical_solid_fraction", "-", part, MEMBER(scene.contact.critical_solid_fraction),
-          "f_c, packing under slow shear, with shear_dilatancy; between solid_fraction_min and _max."),
-      key("contact.dilatancy_slope", "-", positive, MEMBER(scene.contact.dilatancy_slope),
-          "K_psi, tangent of the dilatancy angle per solid fraction above f_c."),
+      came_later(key("contact.stop_length", "-", positive, MEMBER(scene.contact.stop_length),
+                     "L of h_stop, in grain diameters, with thin_layer_arrest.")),
+      came_later(
+          key("contact.critical_solid_fraction", "-", part, MEMBER(scene.contact.critical_solid_fraction),
+              "f_c, packing under slow shear, with shear_dilatancy; between solid_fraction_min and _max.")),
+      came_later(key("contact.dilatancy_slope", "-", positive, MEMBER(scene.contact.dilatancy_slope),
+                     "K_psi, tangent of the dilatancy angle per solid fraction above f_c.")),
   };
 }
 
@@ -198,12 +199,14 @@ std::vector<Key> model_keys() {
              MEMBER(scene.model.friction_law),
              "Friction coefficient: solid.friction (the paper), or mu(I), which it is at rest (Jop et al. "
              "2006)."),
-      key("model.thin_layer_arrest", "", any, MEMBER(scene.model.thin_layer_arrest),
-          "Friction of a layer on a no-slip floor at least that at which it stops, h_stop (Pouliquen 1999)."),
-      key("model.shear_dilatancy", "", any, MEMBER(scene.model.shear_dilatancy),
+      came_later(key("model.thin_layer_arrest", "", any, MEMBER(scene.model.thin_layer_arrest),
+                     "Friction of a layer on a no-slip floor at least that at which it stops, h_stop "
+                     "(Pouliquen 1999).")),
+      came_later(key(
+          "model.shear_dilatancy", "", any, MEMBER(scene.model.shear_dilatancy),
           "The packing at which grains touch follows shear to contact.critical_solid_fraction (Pailha and "
           "Pouliquen "
-          "2009); without, it is solid_fraction_min (the paper)."),
+          "2009); without, it is solid_fraction_min (the paper).")),
       key("model.colour", "", any, MEMBER(scene.model.colour), "Colour of the solid, (25)."),
   };
 }
