@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -15,30 +14,48 @@ namespace granvof::compare {
 namespace {
 
 // What a difference is called that counts, by how its name begins: seed2, cell-3.3mm, slice-4.8mm.
-constexpr std::array<std::string_view, 3> kinds{"seed", "cell-", "slice-"};
+constexpr std::array kinds{std::pair{"seed", Bands::Kind::seed}, std::pair{"cell-", Bands::Kind::grid},
+                           std::pair{"slice-", Bands::Kind::depth}};
 
 }  // namespace
+
+void Bands::add(const std::string& scene, const std::string& column, Kind kind, double rms) {
+  double& largest = columns_[column][static_cast<std::size_t>(kind)][scene];
+  largest = std::max(largest, rms);
+}
+
+std::optional<double> Bands::of(std::string_view scene, std::string_view column) const {
+  const auto found = columns_.find(column);
+  if (found == columns_.end()) return std::nullopt;
+  double squares = 0.0;
+  for (const ByScene& scenes : found->second) {
+    double rms = 0.0;
+    if (const auto own = scenes.find(scene); own != scenes.end()) {
+      rms = own->second;
+    } else {
+      for (const auto& [name, value] : scenes) rms = std::max(rms, value);
+    }
+    squares += rms * rms;
+  }
+  return std::sqrt(squares);
+}
 
 Bands read_bands(const std::filesystem::path& records) {
   const auto file = records / "bands.json";
   if (!std::filesystem::exists(file)) return {};
   const auto differences = nlohmann::json::parse(read_file(file), nullptr, false);
   if (!differences.is_array()) throw OutputError("read", file, "it is not a JSON list");
-  std::map<std::string, std::array<double, kinds.size()>> largest;
+  Bands bands;
   for (const auto& difference : differences) {
     if (!difference.is_object()) continue;
     if (!difference.contains("rms") || !difference["rms"].is_number())
       throw OutputError("read", file, "a band without the number 'rms'");
     const std::string against = difference.value("against", "");
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-      if (against.starts_with(kinds[i])) {
-        double& rms = largest[difference.value("column", "")][i];
-        rms = std::max(rms, difference["rms"].get<double>());
-      }
+    for (const auto& [name, kind] : kinds)
+      if (against.starts_with(name))
+        bands.add(difference.value("scene", ""), difference.value("column", ""), kind,
+                  difference["rms"].get<double>());
   }
-  Bands bands;
-  for (const auto& [column, each] : largest)
-    bands[column] = std::sqrt(std::inner_product(each.begin(), each.end(), each.begin(), 0.0));
   return bands;
 }
 

@@ -30,9 +30,9 @@ std::optional<double> record_uncertainty(std::string_view quantity, const Run& r
   const auto* entry =
       std::find_if(table.begin(), table.end(), [&](const Entry& e) { return e.quantity == quantity; });
   if (entry == table.end()) return std::nullopt;
-  const auto band = bands.find(entry->column);
-  if (band == bands.end()) return std::nullopt;
-  return entry->over_height ? band->second / column_of(record).height : band->second;
+  const auto band = bands.of(record.scene.name, entry->column);
+  if (!band) return std::nullopt;
+  return entry->over_height ? *band / column_of(record).height : *band;
 }
 
 }  // namespace granvof::compare

@@ -47,12 +47,24 @@ TEST_F(Records, BandsOfSeedGridAndSliceAreTakenTogether) {
   EXPECT_TRUE(read_bands(root_).empty());
   write("bands.json", bands);
   const Bands read = read_bands(root_);
-  EXPECT_NEAR(read.at("front_dense [m]"), 0.005, 1e-15);
-  EXPECT_FALSE(read.contains("p_base [Pa]"));
+  EXPECT_NEAR(read.of("canary", "front_dense [m]").value(), 0.005, 1e-15);
+  EXPECT_FALSE(read.of("canary", "p_base [Pa]"));
   write("bands.json", "{}");
   EXPECT_THROW(read_bands(root_), OutputError);
   write("bands.json", R"([{"against": "seed2", "column": "p_base [Pa]"}])");
   EXPECT_THROW(read_bands(root_), OutputError);
+}
+
+// The seeds of s1 say nothing of the canary's, which has seeds of its own; of a scene without they do.
+TEST(Bands, OwnDifferencesBeforeThoseOfOtherScenes) {
+  Bands measured;
+  measured.add("canary", "front", Bands::Kind::seed, 3.0);
+  measured.add("canary", "front", Bands::Kind::grid, 4.0);
+  measured.add("s1", "front", Bands::Kind::seed, 12.0);
+  measured.add("s1", "front", Bands::Kind::seed, 5.0);
+  EXPECT_DOUBLE_EQ(measured.of("canary", "front").value(), 5.0);
+  EXPECT_DOUBLE_EQ(measured.of("s1", "front").value(), std::sqrt(12.0 * 12.0 + 16.0));
+  EXPECT_DOUBLE_EQ(measured.of("water-entry", "front").value(), std::sqrt(12.0 * 12.0 + 16.0));
 }
 
 TEST_F(Records, OneRecordIsAsUncertainAsTheCanary) {
