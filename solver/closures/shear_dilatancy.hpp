@@ -10,7 +10,6 @@
 // shear is P_s^D (15), which stays.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "solver/closures/contact_pressure.hpp"
