@@ -135,8 +135,8 @@ std::vector<ExpectedFailure> read_expected_failures(const TomlEntry& check, std:
   if (distances.size() != instants)
     entry.fail("distance", fmt::format("{} numbers given; allowed: one, or as many as 'at' has ({})",
                                        distances.size(), instants));
-  std::vector<ExpectedFailure> failures;
-  for (const double distance : distances) failures.push_back({entry.text("reason"), distance});
+  std::vector<ExpectedFailure> failures(instants, {entry.text("reason"), 0.0});
+  for (std::size_t i = 0; i < instants; ++i) failures[i].distance = distances[i];
   return failures;
 }
 
@@ -161,8 +161,8 @@ std::vector<Check> read_check(const TomlEntry& entry) {
   if (entry.has("label")) check.label = entry.text("label");
   std::vector<std::optional<double>> instants{std::nullopt};
   if (metric->needs.at) {
-    instants.clear();
-    for (const double at : entry.numbers("at")) instants.push_back(at);
+    const std::vector<double> given = entry.numbers("at");
+    instants.assign(given.begin(), given.end());
   }
   const auto failures = read_expected_failures(entry, instants.size());
   if (!failures.empty() && !check.asserted)
