@@ -121,7 +121,7 @@ const std::vector<std::vector<std::string>> variants{
     {"time.unit=s", "output.field_interval=0.3", "numerics.cfl=0.1"},
     {"walls.bottom={solid=\"coulomb\", solid_friction=0.2, velocity=[0.1, 0]}", "walls.right=slip"},
     {"bed.y=floating", "solid.density=333", "bed.slope=45"},
-    {"scene.title=\"A \\\"title\\\" with \\\\ and \\u0007\"", "tank.depth=0.3",
+    {R"(scene.title="A \"title\" with \\ and \u0007")", "tank.depth=0.3",
      "liquid.box={origin=[0,0], size=[0.1,0.1]}"},
     {"scene.dimensions=3", "tank.size=[0.4, 0.12, 0.1]", "reference.slice_depth=0.1", "reference=false"},
 };
