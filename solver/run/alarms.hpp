@@ -14,9 +14,8 @@
 namespace granvof {
 
 // Shares of the energy that was turned over: all dissipation, numerical included by magnitude, and the
-// largest kinetic energy. A tank at rest turns nothing over, and the first steps of one that was at rest next
-// to nothing, hence the share of what it stores at least.
-inline constexpr double least_turnover = 1e-6;
+// largest kinetic energy. A tank at rest turns nothing over, hence the share of what it stores at least.
+inline constexpr double least_turnover = 1e-9;
 double energy_turnover(const EnergyTerms& start, const EnergyTerms& now);
 
 struct StepCounts {
