@@ -1,6 +1,6 @@
 // How far a DEM-VOF record moves with what the continuum does not have: seed, fluid grid, depth of the slice.
-// Measured by reference/bands on the scenes that were recorded more than once (the canary; seeds also of s1),
-// kept in reference/results/bands.json.
+// Measured by reference/bands on the scenes that were recorded more than once (the canary; seeds also of s1
+// and s2), kept in reference/results/bands.json.
 #pragma once
 
 #include <array>

@@ -8,6 +8,7 @@
 #include "reference/demvof/program/record_scene.hpp"
 #include "reference/tests/small_case.hpp"
 #include "solver/output/series_file.hpp"
+#include "solver/tests/temporary_directory.hpp"
 
 namespace {
 
@@ -19,9 +20,9 @@ struct Recorded {
   granvof::Series series;
 };
 
-Recorded recorded(const std::string& name, const std::vector<std::string>& overrides) {
-  const fs::path out = fs::temp_directory_path() / "demvof-tests" / name;
-  fs::remove_all(out);
+Recorded recorded(const std::vector<std::string>& overrides) {
+  const granvof::test::TemporaryDirectory directory;
+  const fs::path& out = directory.path();
   demvof::RecordOptions options;
   options.out = out / "run";
   options.scratch = out / "scratch";
@@ -36,7 +37,7 @@ Recorded recorded(const std::string& name, const std::vector<std::string>& overr
 
 // Grains in air: nothing to lose, so nothing is lost; the column stands or falls as its grains do.
 TEST(RecordScene, ACaseWithoutLiquidRuns) {
-  const Recorded dry = recorded("dry", {"liquid=false"});
+  const Recorded dry = recorded({"liquid=false"});
   EXPECT_EQ(dry.code, 0);
   EXPECT_NE(dry.facts.find("\"liquid_volume_error\": 0.0"), std::string::npos) << dry.facts;
   const auto change = dry.series.column("liquid_volume_change");
@@ -48,7 +49,7 @@ TEST(RecordScene, ACaseWithoutLiquidRuns) {
 
 // The same with water, which is kept.
 TEST(RecordScene, ACaseWithLiquidKeepsIt) {
-  const Recorded wet = recorded("wet", {});
+  const Recorded wet = recorded({});
   EXPECT_EQ(wet.code, 0);
   for (const auto& value : wet.series.column("liquid_volume_change")) EXPECT_LT(std::abs(*value), 1e-8);
   EXPECT_GT(*wet.series.column("liquid_volume").back(), 0.0);

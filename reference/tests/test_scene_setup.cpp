@@ -6,7 +6,6 @@
 
 #include "reference/demvof/program/scene_setup.hpp"
 #include "reference/tests/small_case.hpp"
-#include "solver/scene/case_error.hpp"
 
 namespace {
 
@@ -15,12 +14,7 @@ using demvof::test::small;
 constexpr double d = 0.8e-3;
 
 std::string refusal(const std::vector<std::string>& overrides) {
-  try {
-    demvof::check_scene(small(overrides));
-  } catch (const granvof::CaseError& error) {
-    return error.what();
-  }
-  return "";
+  return granvof::test::refusal([&] { demvof::check_scene(small(overrides)); });
 }
 
 double highest(const std::vector<double>& position) {
