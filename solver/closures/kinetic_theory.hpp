@@ -53,4 +53,20 @@ inline double positive_root(double a, double b, double c) {
   return a > 0.0 ? (root - b) / (2.0 * a) : 0.0;
 }
 
+// The positive root w of a w^3 + b w^2 = c; a >= 0, b >= 0, c >= 0, not both a and b zero; 0 where c = 0. To
+// rounding: convex and rising, so that Newton comes down from any w above the root.
+inline double cubic_root(double a, double b, double c) {
+  if (c <= 0.0) return 0.0;
+  double w = b > 0.0 ? std::sqrt(c / b) : std::cbrt(c / a);
+  if (a * w > b) w = std::cbrt(c / a);
+  constexpr int most = 30;
+  for (int k = 0; k < most; ++k) {
+    const double next = w - (w * w * (a * w + b) - c) / (w * (3.0 * a * w + 2.0 * b));
+    const bool arrived = next >= w * (1.0 - 1e-15);
+    w = next;
+    if (arrived) break;
+  }
+  return w;
+}
+
 }  // namespace granvof::closures

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/contact_friction.hpp"
 #include "solver/operators/component_pointers.hpp"
 
@@ -14,6 +15,16 @@ constexpr double slowest_sliding = 1e-7;     // [m/s] below which a Coulomb wall
 constexpr double relative_tolerance = 1e-6;
 constexpr int most_iterations = 1000;  // a bed that locks in its first step took more than 300
 constexpr int smoothing = 2;
+
+// What friction depends on, in a cell or summed over the cells in contact around an edge.
+struct Contacts {
+  int count = 0;
+  double pressure = 0.0;        // P_s^E [Pa]
+  double dilatancy = 0.0;       // tan(psi) [-]
+  double least = 0.0;           // coefficient of a layer that stops [-]
+  double drag = 0.0;            // beta on the agitation [kg/m3 s]
+  double normal_squared = 0.0;  // S:S of what is averaged over cells [1/s2]
+};
 
 }  // namespace
 
@@ -71,20 +82,24 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   const bool inertial = scene_.model.contact_friction && scene_.model.friction_law == FrictionLaw::inertial;
   const double mu_2 = scene_.contact.fast_friction, i_0 = scene_.contact.inertial_number;
   const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
-  const auto viscosity_at = [=](double pressure, double tan_psi, double least, double norm) {
-    const double coefficient =
+  const auto viscosity_at = [=](const Contacts& sum, double norm) {
+    const double share = 1.0 / sum.count, pressure = share * sum.pressure;
+    const double law =
         inertial ? closures::inertial_friction(pressure, norm, eta, mu_2, i_0, rho_s, d_s) : eta;
-    const double with_packing = std::fmax(std::fmax(coefficient, least) + tan_psi, 0.0);
-    return closures::friction_viscosity(pressure, with_packing, n, norm);
+    double coefficient = std::fmax(std::fmax(law, share * sum.least) + share * sum.dilatancy, 0.0);
+    if (sum.drag > 0.0)
+      coefficient += closures::agitation_friction(share * sum.drag, pressure, norm, rho_s, d_s);
+    return closures::friction_viscosity(pressure, coefficient, n, norm);
   };
   const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),
-               *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data();
+               *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data(),
+               *beta = rheology.agitated_drag.data();
   const double* sq = strain_.squared.data();
   double *mu = mu_.data(), *lambda = lambda_.data();
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     lambda[c] = kinetic[c];
     mu[c] = kinetic[c];
-    if (p[c] > 0.0) mu[c] += viscosity_at(p[c], psi[c], stop[c], std::sqrt(0.5 * sq[c]));
+    if (p[c] > 0.0) mu[c] += viscosity_at({1, p[c], psi[c], stop[c], beta[c], 0.0}, std::sqrt(0.5 * sq[c]));
   });
   boundary_.fill_scalar(mu_);
   boundary_.fill_scalar(lambda_);
@@ -104,21 +119,21 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
       for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
         const std::array<std::ptrdiff_t, 4> around{c, c - s, c - t, c - s - t};
         // Only cells in contact count: an average over empty cells would let the bed's surface slide.
-        double pressure = 0.0, tan_psi = 0.0, least = 0.0, square = 0.0, viscosity = 0.0;
-        int contacts = 0;
+        Contacts sum;
+        double viscosity = 0.0;
         for (const std::ptrdiff_t a : around) {
           viscosity += 0.25 * kinetic[a];
           if (p[a] <= 0.0) continue;
-          ++contacts;
-          pressure += p[a];
-          tan_psi += psi[a];
-          least += stop[a];
-          for (int q = 0; q < parts; ++q) square += rest[q][a];
+          ++sum.count;
+          sum.pressure += p[a];
+          sum.dilatancy += psi[a];
+          sum.least += stop[a];
+          sum.drag += beta[a];
+          for (int q = 0; q < parts; ++q) sum.normal_squared += rest[q][a];
         }
-        if (contacts > 0) {
-          const double norm = std::sqrt(0.5 * (square / contacts + 0.5 * g[c] * g[c]));
-          viscosity += viscosity_at(pressure / contacts, tan_psi / contacts, least / contacts, norm);
-        }
+        if (sum.count > 0)
+          viscosity +=
+              viscosity_at(sum, std::sqrt(0.5 * (sum.normal_squared / sum.count + 0.5 * g[c] * g[c])));
         edge[c] = viscosity;
       });
     }

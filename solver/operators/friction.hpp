@@ -32,14 +32,16 @@ class Friction {
                        const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
                        FaceField& u_s);
 
-  // Power [W] of the stress of the last solve, at the velocity `u` it was solved for.
+  // Power [W] of the stress of the last solve, at the velocity `u` it was solved for; `kinetic` [W/m3]: what
+  // the kinetic viscosity dissipates in each cell, an edge's dissipation shared by its cells as their
+  // viscosity.
   struct Power {
     double on_grains = 0.0;  // its force times the velocity u_end, on the faces that hold grains
     double friction = 0.0;   // dissipated by enduring contacts, >= 0
     double kinetic = 0.0;    // dissipated by the kinetic viscosity, >= 0: the production of Theta
     double walls = 0.0;      // given by moving walls
   };
-  Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end);
+  Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end, Field& kinetic);
 
  private:
   void fit_box(const FaceInertia& inertia);

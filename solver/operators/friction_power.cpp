@@ -8,7 +8,9 @@
 
 namespace granvof {
 
-Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const FaceField& u_end) {
+Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const FaceField& u_end,
+                                Field& kinetic_power) {
+  kinetic_power.fill(0.0);
   if (is_empty(box_)) return {};
   correction_ = u;
   const linear::Components v = component_pointers(correction_, grid_.dim),
@@ -17,9 +19,11 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   apply(mass, v, r);
   Power power;
   const double *mu = mu_.data(), *kinetic = lambda_.data(), *div = divergence_.data();
-  double total = sum_over(grid_.cells, grid_.all_cells(),
-                          [=](std::ptrdiff_t c) { return kinetic[c] * div[c] * div[c]; });
-  power.kinetic = total;
+  double* spent = kinetic_power.data();
+  double total = sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+    spent[c] = kinetic[c] * div[c] * div[c];
+    return spent[c];
+  });
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h = 1.0 / grid_.h[d];
@@ -27,31 +31,39 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
     power.on_grains += sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
       return m[c] != 0.0 ? end[c] * (own[c] * x[c] - y[c]) : 0.0;
     });
-    double all = 0.0, of_kinetic = 0.0;
+    double all = 0.0;
     for_each_row(grid_.cells, grid_.all_cells(), [&](std::ptrdiff_t start, int n) {
-#pragma omp simd reduction(+ : all, of_kinetic)
+#pragma omp simd reduction(+ : all)
       for (int i = 0; i < n; ++i) {
         const std::ptrdiff_t c = start + i;
         const double stretch = (x[c + s] - x[c]) * inv_h;
         all += 2.0 * mu[c] * stretch * stretch;
-        of_kinetic += 2.0 * kinetic[c] * stretch * stretch;
+        spent[c] += 2.0 * kinetic[c] * stretch * stretch;
       }
     });
     total += all;
-    power.kinetic += of_kinetic;
     for (int e = d + 1; e < grid_.dim; ++e) {
       const double *tau = shear_[plane_index(d, e)].data(), *edge = mu_edge_[plane_index(d, e)].data();
       const std::ptrdiff_t t = grid_.stride(e);
       total += sum_over_edges(
           grid_, d, e, [=](std::ptrdiff_t c) { return edge[c] > 0.0 ? tau[c] * tau[c] / edge[c] : 0.0; });
-      power.kinetic += sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) {
+      // of an edge's dissipation per kinetic viscosity of a cell beside it: the square of its strain, less
+      // where a Coulomb wall bears less than the mean kinetic viscosity around
+      const auto squared = [=](std::ptrdiff_t c) {
+        if (edge[c] <= 0.0) return 0.0;
         const double mean = 0.25 * (kinetic[c] + kinetic[c - s] + kinetic[c - t] + kinetic[c - s - t]);
-        return edge[c] > 0.0 ? tau[c] * tau[c] / edge[c] * std::fmin(1.0, mean / edge[c]) : 0.0;
+        const double strain = tau[c] / edge[c];
+        return strain * strain * (edge[c] < mean ? edge[c] / mean : 1.0);
+      };
+      for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
+        if (kinetic[c] > 0.0)
+          spent[c] += 0.25 * kinetic[c] * (squared(c) + squared(c + s) + squared(c + t) + squared(c + s + t));
       });
     }
   }
   power.on_grains *= grid_.cell_volume;
-  power.kinetic *= grid_.cell_volume;
+  power.kinetic = grid_.cell_volume *
+                  sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return spent[c]; });
   power.friction = std::fmax(total * grid_.cell_volume - power.kinetic, 0.0);
   power.walls = wall_power(grid_, boundary_,
                            [&](int d, int e, std::ptrdiff_t c) { return shear_[plane_index(d, e)][c]; });

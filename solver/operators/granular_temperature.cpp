@@ -17,6 +17,11 @@ namespace {
 // Without this bound Theta ran to 1e8 m2/s2 at f_s = 1e-4 above a bed that hits the water.
 constexpr double least_collisional_fraction = 1e-3;
 
+// Share of the Theta that a shear makes in one step which grains at rest are stirred with: with none their
+// stress would stay zero for ever. Small, so that what conduction takes from a flow is not given back; a
+// start from rest needs two or three steps more than with the whole.
+constexpr double seed = 0.01;
+
 // The fluctuation energy 3/2 Theta of a grain cannot exceed what gravity and moving walls can give it: a fall
 // through the whole tank. P_s^EF pushes grains apart without being charged to Theta in (7), and P_s takes the
 // old Theta for a whole step; in packed beds that hit water the two together created energy without end
@@ -91,63 +96,128 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
   for_each(grid_.cells, [=](std::ptrdiff_t c) { t[c] = std::fmax(t[c], 0.0); });
 }
 
-// Local balance of (7), divided by w = sqrt(Theta): 3 f rho dw/dt = A S^2 - G w^2 - (3 beta + B) w, implicit
-// in w. Quadratic with one positive root: stays positive, needs no seed. The algebraic form drops the time
-// term.
-GranularLosses GranularTemperature::balance(double dt, const Field& f_s_new, const FaceField& beta,
-                                            const Rheology& rheology, const StrainRate& strain,
-                                            Field& theta_new) {
-  const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter,
-               f_max = scene_.contact.solid_fraction_max;
-  const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
-  const bool work = scene_.model.pressure_work;
-  const double bound = largest_granular_temperature(scene_);
-  const double *f_s = f_s_new.data(), *e_cell = rheology.restitution.data();
-  const double *sq = strain.squared.data(), *div = strain.divergence.data();
-  double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
-         *excess = excess_.data();
-  std::array<const double*, 3> b{};
-  for (int d = 0; d < grid_.dim; ++d) b[d] = beta[d].data();
-  const int dim = grid_.dim;
-  const auto stride = grid_.cells.stride;
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    const double f = f_s[c];
-    collided[c] = dragged[c] = 0.0;
-    if (f < least_collisional_fraction) {
-      excess[c] = 1.5 * f * rho_s * t[c];
-      t[c] = 0.0;
-      return;
-    }
-    const double e = e_cell[c], g0 = closures::radial_distribution(f, f_max);
-    // mean over the faces that grains pass (closed ones hold no drag coefficient)
+namespace {
+
+// Coefficients of the local balance of (7) in a cell, w = sqrt(Theta):
+//   3/2 f rho d(w^2)/dt = production - work w^2 - collisions w^3 - expansion w^2 - 3 drag w^2
+struct LocalBalance {
+  double collisions;  // [kg/m4]
+  double expansion;   // the part of (23) that follows div u_s, of either sign [kg/m3 s]
+  double work;        // P_s^K div u_s / Theta, of either sign; 0 without pressure work [kg/m3 s]
+  double drag;        // beta, mean over the faces that grains pass (closed ones hold none) [kg/m3 s]
+};
+
+class LocalBalances {
+ public:
+  LocalBalances(const Grid& grid, const Scene& scene, const Field& f_s, const FaceField& beta,
+                const Field& restitution, const StrainRate& strain)
+      : dim_(grid.dim),
+        stride_(grid.cells.stride),
+        rho_s_(scene.solid.density),
+        d_s_(scene.solid.diameter),
+        f_max_(scene.contact.solid_fraction_max),
+        work_(scene.model.pressure_work),
+        f_s_(f_s.data()),
+        e_(restitution.data()),
+        div_(strain.divergence.data()) {
+    for (int d = 0; d < dim_; ++d) beta_[d] = beta[d].data();
+  }
+
+  LocalBalance operator()(std::ptrdiff_t c) const {
+    const double f = f_s_[c], e = e_[c], g0 = closures::radial_distribution(f, f_max_);
     double drag = 0.0;
     int passing = 0;
-    for (int d = 0; d < dim; ++d) {
-      for (const double beta_face : {b[d][c], b[d][c + stride[d]]}) {
+    for (int d = 0; d < dim_; ++d) {
+      for (const double beta_face : {beta_[d][c], beta_[d][c + stride_[d]]}) {
         drag += beta_face;
         passing += beta_face > 0.0 ? 1 : 0;
       }
     }
     if (passing > 0) drag /= passing;
-    const double mu = closures::kinetic_viscosity(f, 1.0, e, g0, rho_s, d_s);  // mu_s^K / sqrt(Theta)
+    const double work = work_ ? closures::kinetic_pressure(f, 1.0, e, g0, rho_s_) * div_[c] : 0.0;
+    return {closures::collisional_dissipation_rate(f, e, g0, rho_s_, d_s_),
+            -3.0 * (1.0 - e * e) * f * f * rho_s_ * g0 * div_[c], work, drag};
+  }
+
+  // mu_s^K f_s / sqrt(Theta) [kg/m2]
+  double viscosity(std::ptrdiff_t c) const {
+    const double g0 = closures::radial_distribution(f_s_[c], f_max_);
+    return f_s_[c] * closures::kinetic_viscosity(f_s_[c], 1.0, e_[c], g0, rho_s_, d_s_);
+  }
+
+ private:
+  int dim_;
+  std::array<std::ptrdiff_t, 3> stride_;
+  double rho_s_, d_s_, f_max_;
+  bool work_;
+  const double *f_s_, *e_, *div_;
+  std::array<const double*, 3> beta_{};
+};
+
+}  // namespace
+
+// The production A S^2 w is proportional to w: divided by w the balance, 3 f rho dw/dt = A S^2 - collisions
+// w^2 - decay w, is a quadratic with one positive root. Grains at rest need no seed to be stirred.
+void GranularTemperature::predict(double dt, const Field& theta, const Field& f_s, const FaceField& beta,
+                                  const Field& restitution, const StrainRate& strain,
+                                  Field& predicted) const {
+  const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
+  const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
+  const LocalBalances at(grid_, scene_, f_s, beta, restitution, strain);
+  const double *f = f_s.data(), *t = theta.data(), *sq = strain.squared.data(),
+               *div = strain.divergence.data();
+  double* out = predicted.data();
+  for_each(grid_.cells, [=, &at](std::ptrdiff_t c) {
+    out[c] = 0.0;
+    if (f[c] < least_collisional_fraction) return;
+    const LocalBalance b = at(c);
     // tau^K : S of (16), without the printed factor 2 (model correction 2)
     const double production =
-        f * mu * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
-    const double collisions = closures::collisional_dissipation_rate(f, e, g0, rho_s, d_s);
-    const double of_collisions = -3.0 * (1.0 - e * e) * f * f * rho_s * g0 * div[c];
-    double expansion = of_collisions;
-    if (work) expansion += closures::kinetic_pressure(f, 1.0, e, g0, rho_s) * div[c];
-    // A growing term (grains under compression) is taken explicitly, as the work of the old Theta's pressure,
-    // which is the pressure the momentum felt: implicit in w it has a pole near div u_s dt = -3 and creates
-    // energy.
-    const double inertia = steady ? 0.0 : 3.0 * f * rho_s / dt;
-    const double growth = std::fmax(-expansion, 0.0), decay = 3.0 * drag + std::fmax(expansion, 0.0);
-    const double w_start = steady ? 0.0 : std::sqrt(t[c] * (1.0 + 2.0 * growth / inertia));
-    const double w = closures::positive_root(collisions, inertia + decay, production + inertia * w_start);
+        at.viscosity(c) * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
+    const double inertia = steady ? 0.0 : 3.0 * f[c] * rho_s / dt;
+    const double decay = 3.0 * b.drag + std::fmax(b.expansion + b.work, 0.0);
+    const double start = steady ? 0.0 : std::sqrt(t[c]);
+    const double w = closures::positive_root(b.collisions, inertia + decay, production + inertia * start);
+    out[c] = steady ? std::fmin(w * w, bound) : std::fmax(t[c], std::fmin(seed * w * w, bound));
+  });
+}
+
+// The local balance with its production known: one positive root w, so Theta stays positive. Pressure work is
+// that of the old Theta, which is what the momentum felt; where the grains expand by more than they hold, the
+// rest of it came from nowhere (numerical_granular of the energy budget). The algebraic form drops the time
+// term, and takes the work of the new Theta where it is a loss.
+GranularLosses GranularTemperature::balance(double dt, const Field& theta, const Field& f_s_new,
+                                            const FaceField& beta, const Field& restitution,
+                                            const StrainRate& strain, const Field& production,
+                                            Field& theta_new) {
+  const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
+  const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
+  const LocalBalances at(grid_, scene_, f_s_new, beta, restitution, strain);
+  const double *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
+  double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
+         *excess = excess_.data();
+  for_each(grid_.cells, [=, &at](std::ptrdiff_t c) {
+    collided[c] = dragged[c] = 0.0;
+    if (f[c] < least_collisional_fraction) {
+      excess[c] = 1.5 * f[c] * rho_s * t[c] + dt * produced[c];
+      t[c] = 0.0;
+      return;
+    }
+    const LocalBalance b = at(c);
+    // Implicit where it is a loss; a gain taken so has a pole near div u_s dt = -3.
+    const double loss = std::fmax(b.expansion, 0.0), gain = std::fmax(-b.expansion, 0.0) * t[c];
+    double inertia = 0.0, held = produced[c], decay = 3.0 * b.drag + loss;
+    if (steady) {
+      decay += std::fmax(b.work, 0.0);
+    } else {
+      inertia = 1.5 * f[c] * rho_s / dt;
+      held += inertia * t[c] + gain - b.work * old[c];
+    }
+    const double w = closures::cubic_root(b.collisions, inertia + decay, std::fmax(held, 0.0));
     t[c] = std::fmin(w * w, bound);
-    excess[c] = 1.5 * f * rho_s * (w * w - t[c]);
-    collided[c] = dt * (collisions * w + of_collisions) * w * w;
-    dragged[c] = dt * 3.0 * drag * w * w;
+    excess[c] = 1.5 * f[c] * rho_s * (w * w - t[c]);
+    collided[c] = dt * ((b.collisions * w + loss) * w * w - (steady ? 0.0 : gain));
+    dragged[c] = dt * 3.0 * b.drag * w * w;
   });
   const auto total = [&](const Field& loss) {
     const double* l = loss.data();
@@ -160,7 +230,8 @@ GranularLosses GranularTemperature::balance(double dt, const Field& f_s_new, con
 GranularLosses GranularTemperature::advance(double dt, const Field& theta, const Field& f_s,
                                             const Field& f_s_new, const FaceField& flux_s,
                                             const FaceField& beta, const Rheology& rheology,
-                                            const StrainRate& strain, Field& theta_new) {
+                                            const StrainRate& strain, const Field& production,
+                                            Field& theta_new) {
   switch (scene_.model.granular_temperature) {
     case TemperatureModel::off:
       return {};  // Theta stays zero
@@ -171,7 +242,7 @@ GranularLosses GranularTemperature::advance(double dt, const Field& theta, const
     case TemperatureModel::algebraic:
       break;
   }
-  return balance(dt, f_s_new, beta, rheology, strain, theta_new);
+  return balance(dt, theta, f_s_new, beta, rheology.restitution, strain, production, theta_new);
 }
 
 }  // namespace granvof

@@ -1,4 +1,10 @@
 // Granular temperature Theta: transport (7), its steady local balance (algebraic form), or none.
+//
+// Theta lives on what the kinetic stress (16) dissipates, and that stress is as large as Theta makes it. So a
+// step takes Theta twice: predicted from the shear of the last step, for the viscosity of the friction step,
+// and after it from the power that this stress then spent, cell by cell. What the grains' mean motion loses
+// is what their fluctuation gains. (Production from the new strain and the new Theta instead, stress from the
+// old one: a thin dry collapse on cells smaller than a grain made four times its potential energy that way.)
 #pragma once
 
 #include "solver/grid/boundary.hpp"
@@ -20,18 +26,25 @@ class GranularTemperature {
   GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
                       const Communicator& communicator);
 
+  // Theta that the strain would make in each cell by itself within dt, nothing carried [m2/s2]. In: Theta,
+  // f_s, e of the old level, beta on faces. Interior cells only.
+  void predict(double dt, const Field& theta, const Field& f_s, const FaceField& beta,
+               const Field& restitution, const StrainRate& strain, Field& predicted) const;
+
   // Theta of the new level [m2/s2], >= 0 without clipping. In: Theta, f_s of the old level (one ghost layer
-  // filled), f_s and strain of the new level, flux_s [m/s], beta on faces, e of the step.
+  // filled), f_s and strain of the new level, flux_s [m/s], beta on faces, e of the step, and what the
+  // kinetic stress dissipated, production >= 0 [W/m3].
   GranularLosses advance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
                          const FaceField& flux_s, const FaceField& beta, const Rheology& rheology,
-                         const StrainRate& strain, Field& theta_new);
+                         const StrainRate& strain, const Field& production, Field& theta_new);
 
  private:
   void convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new, const FaceField& flux_s,
                Field& theta_new) const;
   void conduct(double dt, const Field& f_s_new, const Rheology& rheology, Field& theta_new);
-  GranularLosses balance(double dt, const Field& f_s_new, const FaceField& beta, const Rheology& rheology,
-                         const StrainRate& strain, Field& theta_new);
+  GranularLosses balance(double dt, const Field& theta, const Field& f_s_new, const FaceField& beta,
+                         const Field& restitution, const StrainRate& strain, const Field& production,
+                         Field& theta_new);
 
   const Grid& grid_;
   const Scene& scene_;

@@ -12,6 +12,7 @@ struct Rheology {
   Field enduring_pressure;  // P_s^E [Pa], eqs (12)-(14)
   Field dilatancy_tangent;  // tan(psi), added to the friction coefficient [-]; 0 without shear dilatancy
   Field arrest_friction;    // least friction coefficient, see thin_layer.hpp [-]; 0 without thin-layer arrest
+  Field agitated_drag;      // beta that agitation is dragged by [kg/m3 s]; 0 without agitation drag
   Field resting;            // weight of grains in partly filled cells [Pa per solid fraction], no ghosts;
                             // see bed_surface.hpp, 0 with bed_surface = "whole-cells"
 
@@ -21,12 +22,18 @@ struct Rheology {
         enduring_pressure(grid),
         dilatancy_tangent(grid),
         arrest_friction(grid),
+        agitated_drag(grid),
         resting(grid),
         support_(grid) {}
 
-  // All with ghosts filled but `resting`, from f_s, Theta, alpha, P_s and packing of the same level.
+  // All but the kinetic viscosity, with ghosts filled but for `resting`, from f_s, Theta, alpha, P_s and
+  // packing of the same level.
   void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
               const Field& theta, const Field& alpha, const Field& p_s, const Field& packing);
+
+  // The kinetic viscosity at `theta`, with ghosts filled; e must be up to date.
+  void update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                                const Field& f_s, const Field& theta);
 
  private:
   Field support_;

@@ -1,4 +1,5 @@
-// Solid fraction that a face's volume flux carries: first-order upwind (the paper) or bounded second order.
+// Solid fraction that a face's volume flux carries: first-order upwind (the paper), bounded second order, or
+// the steepest bounded one (superbee), which keeps the surface of a bed within two cells.
 #pragma once
 
 #include <cmath>
@@ -10,37 +11,55 @@ namespace granvof {
 
 class SolidFractionFlux {
  public:
-  explicit SolidFractionFlux(SolidFlux scheme) : limited_(scheme == SolidFlux::limited) {}
+  explicit SolidFractionFlux(SolidFlux scheme) : scheme_(scheme) {}
 
   // Fraction carried through the faces of direction d by velocity u over dt; two ghost layers of f must be
   // filled. At u = 0 the mean of both sides, so that a mirrored scene stays mirrored.
   void face_values(const Grid& grid, const Field& f_s, const Field& u, int d, double dt, const Range& faces,
                    Field& face) const {
-    const double* f = f_s.data();
-    const double* v = u.data();
+    switch (scheme_) {
+      case SolidFlux::upwind:
+        return upwind(grid, f_s, u, d, faces, face);
+      case SolidFlux::limited:
+        return limited(
+            grid, f_s, u, d, dt, faces, [](double a, double b) { return van_leer(a, b); }, face);
+      case SolidFlux::compressive:
+        return limited(
+            grid, f_s, u, d, dt, faces, [](double a, double b) { return superbee(a, b); }, face);
+    }
+  }
+
+ private:
+  static void upwind(const Grid& grid, const Field& f_s, const Field& u, int d, const Range& faces,
+                     Field& face) {
+    const double *f = f_s.data(), *v = u.data();
     double* out = face.data();
     const std::ptrdiff_t s = grid.stride(d);
-    if (!limited_) {
-      for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-        const double w = v[c];
-        out[c] = w > 0.0 ? f[c - s] : (w < 0.0 ? f[c] : 0.5 * (f[c] + f[c - s]));
-      });
-      return;
-    }
+    for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
+      const double w = v[c];
+      out[c] = w > 0.0 ? f[c - s] : (w < 0.0 ? f[c] : 0.5 * (f[c] + f[c - s]));
+    });
+  }
+
+  template <typename Slope>
+  static void limited(const Grid& grid, const Field& f_s, const Field& u, int d, double dt,
+                      const Range& faces, Slope slope, Field& face) {
+    const double *f = f_s.data(), *v = u.data();
+    double* out = face.data();
+    const std::ptrdiff_t s = grid.stride(d);
     const double courant_per_speed = dt / grid.h[d];
     for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
       const double w = v[c];
       const double middle = f[c] - f[c - s];
-      // van Leer's slope, shortened by the Courant number: second order in time too, and bounded up to 1
+      // the slope, shortened by the Courant number: second order in time too, and bounded up to 1
       const double reach = 0.5 * std::fmax(1.0 - std::fabs(w) * courant_per_speed, 0.0);
-      const double from_lower = f[c - s] + reach * van_leer(f[c - s] - f[c - 2 * s], middle);
-      const double from_upper = f[c] - reach * van_leer(f[c + s] - f[c], middle);
+      const double from_lower = f[c - s] + reach * slope(f[c - s] - f[c - 2 * s], middle);
+      const double from_upper = f[c] - reach * slope(f[c + s] - f[c], middle);
       out[c] = w > 0.0 ? from_lower : (w < 0.0 ? from_upper : 0.5 * (f[c] + f[c - s]));
     });
   }
 
- private:
-  bool limited_;
+  SolidFlux scheme_;
 };
 
 }  // namespace granvof

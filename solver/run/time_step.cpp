@@ -41,7 +41,9 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       mass_(grid),
       rhs_(grid),
       flux_s_(grid),
-      flux_c_(grid) {}
+      flux_c_(grid),
+      stirred_(grid),
+      production_(grid) {}
 
 StepReport TimeStep::advance(const State& now, double dt, State& next, const BodyAcceleration* extra) {
   StepReport report;
@@ -53,6 +55,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
     rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
     drag_.update(now.u_s, now.u_c, now.alpha, inertia_);
+    stir_grains(now, dt);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
   if (extra != nullptr) add_to_predictor(*extra, dt);
@@ -104,15 +107,26 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     cost_.time("packing", [&] { dilated = dilate(dt, next); });
   }
   GranularLosses granular;
+  Friction::Power stress;
   cost_.time("granular temperature", [&] {
+    stress = friction_.power(mass_, next.u_strain, next.u_s, production_);
     strain_.update(grid_, next.u_s);
     granular = temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta(), rheology_,
-                                    strain_, next.theta);
+                                    strain_, production_, next.theta);
   });
   next.fill_ghosts(boundary_);
-  cost_.time("energy budget", [&] { account_energy(now, dt, granular, dilated, report.liquid_left, next); });
+  cost_.time("energy budget",
+             [&] { account_energy(now, dt, stress, granular, dilated, report.liquid_left, next); });
   report.accepted = true;
   return report;
+}
+
+// Kinetic viscosity of the step, at the Theta that the shear of the last one predicts.
+void TimeStep::stir_grains(const State& now, double dt) {
+  if (scene_.model.granular_temperature == TemperatureModel::off) return;
+  strain_.update(grid_, now.u_strain);
+  temperature_.predict(dt, now.theta, now.f_s, drag_.beta(), rheology_.restitution, strain_, stirred_);
+  rheology_.update_kinetic_viscosity(grid_, scene_, boundary_, now.f_s, stirred_);
 }
 
 // Explicit part of (5) and (6): convection, fluid viscosity, gravity. The old pressure gradient of the fluid
@@ -120,7 +134,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 // viscosity.
 void TimeStep::predict(const State& now, double dt) {
   kinematic_viscosity_ = viscosity_.update(boundary_, now.u_c, now.f_s, now.alpha);
-  const bool limited = scene_.numerics.solid_flux == SolidFlux::limited;
+  const bool limited = scene_.numerics.solid_flux != SolidFlux::upwind;
   const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
@@ -216,10 +230,10 @@ double TimeStep::dilate(double dt, State& next) {
   return budget_.elastic(next.f_s, next.packing) - before;
 }
 
-void TimeStep::account_energy(const State& now, double dt, const GranularLosses& granular, double dilated,
-                              double liquid_left, State& next) {
+void TimeStep::account_energy(const State& now, double dt, const Friction::Power& stress,
+                              const GranularLosses& granular, double dilated, double liquid_left,
+                              State& next) {
   const FluidViscosity::Power viscous = viscosity_.power(boundary_);
-  const Friction::Power stress = friction_.power(mass_, next.u_strain, next.u_s);
   next.energy.add(budget_.of_step(dt, now, next,
                                   {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_,
                                    rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));

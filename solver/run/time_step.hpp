@@ -43,13 +43,14 @@ class TimeStep {
   const Stopwatch& cost() const { return cost_; }
 
  private:
+  void stir_grains(const State& now, double dt);
   void predict(const State& now, double dt);
   void add_to_predictor(const BodyAcceleration& extra, double dt);
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
   bool bears_explicit_viscosity(double dt) const;
   double dilate(double dt, State& next);
-  void account_energy(const State& now, double dt, const GranularLosses& granular, double dilated,
-                      double liquid_left, State& next);
+  void account_energy(const State& now, double dt, const Friction::Power& stress,
+                      const GranularLosses& granular, double dilated, double liquid_left, State& next);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;
@@ -70,6 +71,8 @@ class TimeStep {
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
   FaceField mass_, rhs_;                 // of the implicit solid momentum
   FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]
+  Field stirred_;                        // Theta that the kinetic viscosity is taken at [m2/s2]
+  Field production_;                     // of Theta: what the kinetic stress dissipates [W/m3]
   double kinematic_viscosity_ = 0.0;     // largest of the fluid, LES included [m2/s]
   Stopwatch cost_;
 };

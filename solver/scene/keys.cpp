@@ -207,12 +207,18 @@ std::vector<Key> model_keys() {
           "The packing at which grains touch follows shear to contact.critical_solid_fraction (Pailha and "
           "Pouliquen "
           "2009); without, it is solid_fraction_min (the paper).")),
+      came_later(
+          key("model.agitation_drag", "", any, MEMBER(scene.model.agitation_drag),
+              "Drag on the agitation of grains that shear past each other, as friction (da Cruz et al. "
+              "2005).")),
       key("model.colour", "", any, MEMBER(scene.model.colour), "Colour of the solid, (25)."),
   };
 }
 
 std::vector<Key> numerics_keys() {
-  const Words<SolidFlux> fluxes{{"upwind", SolidFlux::upwind}, {"limited", SolidFlux::limited}};
+  const Words<SolidFlux> fluxes{{"upwind", SolidFlux::upwind},
+                                {"limited", SolidFlux::limited},
+                                {"compressive", SolidFlux::compressive}};
   const Words<BedSurface> surfaces{{"whole-cells", BedSurface::whole_cells},
                                    {"part-cells", BedSurface::part_cells}};
   const Words<InterfaceScheme> schemes{{"cicsam", InterfaceScheme::cicsam},

@@ -127,12 +127,14 @@ struct Model {
   FrictionLaw friction_law = FrictionLaw::constant;
   bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
   bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
+  bool agitation_drag = false;     // drag on the agitation of sheared grains, agitation_drag.hpp
   bool colour = true;              // eq (25)
   bool operator==(const Model&) const = default;
 };
 
-// Of f_s and of both momenta: first order (the paper), second order bounded.
-enum class SolidFlux { upwind, limited };
+// Of f_s and of both momenta: first order (the paper), second order bounded, or the same with the steepest
+// bounded flux of f_s.
+enum class SolidFlux { upwind, limited, compressive };
 // P_s of the step: at the new solid fraction, or at the old one (which ties the step to the elastic waves).
 enum class ContactPressure { implicit, explicit_ };
 enum class InterfaceScheme { cicsam, plic, upwind };

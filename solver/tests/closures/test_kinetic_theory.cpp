@@ -116,5 +116,16 @@ TEST(KineticTheory, PositiveRootSolvesItsQuadratic) {
   EXPECT_EQ(positive_root(3.0, 0.0, 0.0), 0.0);
 }
 
+TEST(KineticTheory, CubicRootSolvesItsCubic) {
+  for (const auto& [a, b, c] :
+       {std::array{2.0, 3.0, 5.0}, std::array{0.0, 3.0, 5.0}, std::array{2.0, 0.0, 5.0},
+        std::array{1e-12, 1.0, 1.0}, std::array{1e8, 1.0, 1e-9}, std::array{1.0, 1e8, 1e-8}}) {
+    const double w = cubic_root(a, b, c);
+    EXPECT_GT(w, 0.0);
+    EXPECT_NEAR(w * w * (a * w + b), c, 1e-13 * c) << a << ' ' << b << ' ' << c;
+  }
+  EXPECT_EQ(cubic_root(1.0, 1.0, 0.0), 0.0);
+}
+
 }  // namespace
 }  // namespace granvof::closures

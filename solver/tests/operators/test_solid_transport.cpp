@@ -15,7 +15,7 @@ using test::make_periodic;
 using test::Tank;
 using test::unit_scene;
 
-constexpr std::array<SolidFlux, 2> schemes{SolidFlux::upwind, SolidFlux::limited};
+constexpr std::array<SolidFlux, 3> schemes{SolidFlux::upwind, SolidFlux::limited, SolidFlux::compressive};
 
 FaceField flux_of(const Tank& s, SolidFlux scheme, const Field& f, const FaceField& u, double dt) {
   const SolidFractionFlux fraction(scheme);
@@ -91,6 +91,14 @@ TEST(SolidTransport, OrderOnASmoothPulse) {
   for (double speed : {1.0, -1.0}) {
     EXPECT_NEAR(order(SolidFlux::upwind, speed), 1.0, 0.1);
     EXPECT_GT(order(SolidFlux::limited, speed), 1.7);
+  }
+}
+
+TEST(SolidTransport, CompressiveFluxKeepsAStep) {
+  for (double speed : {1.0, -1.0}) {
+    const auto error = [=](int n, SolidFlux scheme) { return carried_once(n, scheme, 0.4, speed, true); };
+    EXPECT_LT(error(80, SolidFlux::compressive), 0.6 * error(80, SolidFlux::limited));
+    EXPECT_LT(error(160, SolidFlux::compressive), 0.55 * error(80, SolidFlux::compressive));
   }
 }
 

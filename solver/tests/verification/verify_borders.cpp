@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Point{"float", {"solid.density=50"}}, Point{"float", {"solid.density=950"}},
                       Point{"collapse", {"solid.density=1400"}}, Point{"collapse", {"solid.density=20000"}},
                       Point{"collapse", {"solid.diameter=2e-4"}}, Point{"collapse", {"solid.diameter=5e-3"}},
-                      Point{"float", {"solid.diameter=5e-5"}}, Point{"collapse", {"contact.stiffness=1e3"}},
+                      Point{"float", {"solid.diameter=5e-5"}}, Point{"collapse", {"contact.stiffness=1e4"}},
                       Point{"collapse", {"contact.stiffness=1e12"}},
                       Point{"collapse", {"contact.regularisation=1e-2"}},
                       Point{"collapse", {"contact.regularisation=1e9"}},
@@ -89,6 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"collapse", {"solid.density=1050"}, "energy residual"},
         Wrong{"collapse", {"solid.density=1050", "numerics.volume_tolerance=1e-9"}, "energy created"},
         Wrong{"collapse", {"solid.diameter=5e-5"}, "energy residual"},
+        // contacts so soft that the bed's weight presses them beyond f_s,max
+        Wrong{"collapse", {"contact.stiffness=1e3"}, "solid fraction"},
         // With the second-order flux such a bed ends where the step has it.
         Wrong{"collapse", {"bed.solid_fraction=0.61", "numerics.solid_flux=limited"}, "elastic start"}));
 
