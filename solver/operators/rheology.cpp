@@ -1,5 +1,6 @@
 #include "solver/operators/rheology.hpp"
 
+#include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/drag.hpp"
 #include "solver/closures/restitution.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
@@ -41,9 +42,11 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (scene.model.agitation_drag) {
     double* beta = agitated_drag.data();
     for_each(grid.cells, [=, &scene](std::ptrdiff_t c) {
-      beta[c] = p[c] > 0.0 ? closures::drag_coefficient(f[c], a[c], 0.0, scene.gas, scene.liquid,
-                                                        scene.solid.diameter)
-                           : 0.0;
+      beta[c] = 0.0;
+      if (p[c] <= 0.0) return;
+      const double drag =
+          closures::drag_coefficient(f[c], a[c], 0.0, scene.gas, scene.liquid, scene.solid.diameter);
+      beta[c] = closures::agitated_drag(drag, f[c], p[c], scene.solid.density, scene.solid.diameter);
     });
     boundary.fill_scalar(agitated_drag);
   }

@@ -36,6 +36,18 @@ TEST(AgitationDrag, FastShearGivesACoefficientThatHangsOnTheLoadAlone) {
   }
 }
 
+TEST(AgitationDrag, TakesNoMoreThanTheAgitationHas) {
+  const double f_s = 0.57;
+  EXPECT_EQ(agitated_drag(1e3, f_s, pressure, rho_s, d_s), 1e3);
+  for (const double p : {1e-3, 1.0, 1e3}) {
+    const double most = agitated_drag(1e12, f_s, p, rho_s, d_s);
+    EXPECT_NEAR(agitation_friction(most, p, 1e9, rho_s, d_s), f_s / 9.0, 1e-6);
+    // per volume f_s rho_s dv^2 a rearrangement time d_s sqrt(rho_s / p)
+    EXPECT_NEAR(most, f_s * rho_s / (d_s * std::sqrt(rho_s / p)), 1e-9 * most);
+  }
+  EXPECT_EQ(agitated_drag(1e3, f_s, 0.0, rho_s, d_s), 0.0);
+}
+
 TEST(AgitationDrag, VanishesWithTheDrag) {
   EXPECT_EQ(agitation_friction(0.0, pressure, 10.0, rho_s, d_s), 0.0);
 }
