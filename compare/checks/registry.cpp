@@ -32,6 +32,10 @@ Measured run_out_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run_out_curve(run), *p.at), "no front at that T");
 }
 
+Measured run_out_quantile_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run_out_quantile_curve(run), *p.at), "no front at that T");
+}
+
 Measured run_out_apart(const Run& run, const Parameters& p, const FindRun& find) {
   const Run* other = find(*p.against);
   if (!other) return {std::nullopt, fmt::format("the run '{}' cannot be compared", *p.against)};
@@ -230,6 +234,9 @@ constexpr Needs at_only{.at = true};
 
 constexpr std::array table{
     MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at", at_only, run_out_at},
+    MetricEntry{"run_out_quantile", "-",
+                "the same of the place that 99.5 % of the grains have not passed, at T = at", at_only,
+                run_out_quantile_at},
     MetricEntry{"run_out_distance", "-", "rms over T of the difference of the run-out curves of two runs",
                 Needs{.window = true, .against = true}, run_out_apart},
     MetricEntry{"run_out_exponent", "-",

@@ -21,6 +21,12 @@ Curve run_out_curve(const Run& run) {
   return run_out(run.curve("front_dense"), run.curve(both ? "front_dilute" : "front_dense"), column_of(run));
 }
 
+Curve run_out_quantile_curve(const Run& run) {
+  if (!run.scene.bed) return {};
+  const Curve front = run.curve("front_quantile");
+  return run_out(front, front, column_of(run));
+}
+
 Curve free_front(const Run& run) {
   return before_wall(run.curve("front_dense"), run.scene.tank[0], run.scene.grid.spacing[0]);
 }

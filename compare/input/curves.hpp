@@ -18,6 +18,9 @@ ColumnSize column_of(const Run& run);
 // Run-out (l - l0) / h0 [-] against T [-]; empty for a scene without a bed.
 Curve run_out_curve(const Run& run);
 
+// The same for the place that 99.5 % of the grains have not passed: it hangs on no threshold of f_s.
+Curve run_out_quantile_curve(const Run& run);
+
 // The dense front [m] against t [s], up to where it meets the far end of the tank.
 Curve free_front(const Run& run);
 

@@ -1,4 +1,4 @@
-// Restitution coefficient of grains that collide in a liquid, eq (18).
+// Restitution coefficient of grains that collide: in a liquid, eq (18), and with friction.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,14 @@ inline double effective_restitution(double e0, double theta, double rho_s, doubl
   if (mu_c <= 0.0) return e0;
   if (stokes_times_18mu <= 0.0) return 0.0;
   return std::clamp(e0 - 2.85 * std::sqrt(18.0 * mu_c / stokes_times_18mu), 0.0, e0);
+}
+
+// e0 of frictional grains [-]: what collisions of rubbing spheres dissipate, as smooth ones of this
+// restitution would, e - 3/2 mu exp(-3 mu), not below 0 (Chialvo and Sundaresan, Phys. Fluids 25 (2013)
+// 070603, a fit to sheared frictional spheres by DEM, mu to 0.5 and more; formula as remembered, the paper
+// was not at hand). e in [0, 1], mu >= 0 between two grains. Limits: e for mu -> 0.
+inline double frictional_restitution(double e, double mu) {
+  return std::max(e - 1.5 * mu * std::exp(-3.0 * mu), 0.0);
 }
 
 }  // namespace granvof::closures

@@ -23,11 +23,14 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
                *touching = packing.data();
   double *e = restitution.data(), *p = enduring_pressure.data(), *tan_psi = dilatancy_tangent.data();
   const bool sheared = scene.model.shear_dilatancy;
+  const double e0 = scene.model.frictional_restitution
+                        ? closures::frictional_restitution(solid.restitution, solid.friction)
+                        : solid.restitution;
   for_each(grid.cells, [=, &solid, &contact](std::ptrdiff_t c) {
     e[c] = p[c] = 0.0;
     if (f[c] < least_solid_fraction) return;
-    e[c] = closures::effective_restitution(solid.restitution, t[c], solid.density, solid.diameter,
-                                           mixture(a[c], mu_l, mu_g));
+    e[c] =
+        closures::effective_restitution(e0, t[c], solid.density, solid.diameter, mixture(a[c], mu_l, mu_g));
     p[c] = closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, weight[c],
                                        touching[c]);
     if (sheared) tan_psi[c] = closures::dilatancy_tangent(touching[c], contact);

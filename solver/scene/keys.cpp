@@ -207,6 +207,8 @@ std::vector<Key> model_keys() {
           "The packing at which grains touch follows shear to contact.critical_solid_fraction (Pailha and "
           "Pouliquen "
           "2009); without, it is solid_fraction_min (the paper).")),
+      came_later(key("model.frictional_restitution", "", any, MEMBER(scene.model.frictional_restitution),
+                     "e0 less what solid.friction takes in collisions (Chialvo and Sundaresan 2013).")),
       came_later(
           key("model.agitation_drag", "", any, MEMBER(scene.model.agitation_drag),
               "Drag on the agitation of grains that shear past each other, as friction (da Cruz et al. "

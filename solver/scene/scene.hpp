@@ -125,10 +125,11 @@ struct Model {
   bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
   bool contact_friction = true;    // tau_s^E, eq (17)
   FrictionLaw friction_law = FrictionLaw::constant;
-  bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
-  bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
-  bool agitation_drag = false;     // drag on the agitation of sheared grains, agitation_drag.hpp
-  bool colour = true;              // eq (25)
+  bool thin_layer_arrest = false;       // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
+  bool shear_dilatancy = false;         // where grains touch follows shear, shear_dilatancy.hpp
+  bool frictional_restitution = false;  // friction takes from collisions too, restitution.hpp
+  bool agitation_drag = false;          // drag on the agitation of sheared grains, agitation_drag.hpp
+  bool colour = true;                   // eq (25)
   bool operator==(const Model&) const = default;
 };
 

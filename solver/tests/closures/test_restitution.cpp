@@ -56,5 +56,12 @@ TEST(Restitution, GrowsWithTheta) {
   }
 }
 
+TEST(Restitution, FrictionTakesFromCollisions) {
+  EXPECT_NEAR(frictional_restitution(0.9, 0.4), 0.9 - 0.6 * std::exp(-1.2), 1e-15);  // 0.719
+  EXPECT_EQ(frictional_restitution(0.9, 0.0), 0.9);
+  EXPECT_EQ(frictional_restitution(0.1, 0.3), 0.0);
+  EXPECT_NEAR(frictional_restitution(0.9, 1.0 / 3.0), 0.9 - 0.5 / std::exp(1.0), 1e-15);  // takes most there
+}
+
 }  // namespace
 }  // namespace granvof::closures
