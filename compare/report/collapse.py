@@ -9,13 +9,15 @@ WEIGHT = 100.0  # Pa, about what the submerged weight of these columns makes; lo
 
 
 def run_out_plot(results, directory):
-    """Fig. 4: run-out against time, S1 and S2."""
+    """Fig. 4: run-out against time, S1 and S2: the paper's model, and with the choices that matter under water."""
     shown = runs_with(results, ("s1", "s2"), "run_out")
     if not shown:
         return []
     figure, axis = plt.subplots(figsize=(5.6, 4.0))
     for run, colour in zip(shown, style.CYCLE):
         draw_run(axis, results, run, "run_out", colour, f"continuum, {run.upper()}", breaks_at=FRONT_CHANGES)
+        draw_run(axis, results, f"{run}-sourced", "run_out", colour, f"with all choices, {run.upper()}", breaks_at=FRONT_CHANGES,
+                 linestyle="-.")
         draw_records(axis, results, run, "run_out", colour, run.upper(), breaks_at=FRONT_CHANGES)
         draw_peers(axis, results, run, "run_out")
     axis.axvline(FRONT_CHANGES, color="0.7", linewidth=0.8)

@@ -9,13 +9,13 @@ from report.results import arrays
 FRONT_CHANGES = 8.0  # T at which run_out changes from the dense to the dilute front (compare/metrics/run_out.hpp)
 
 
-def draw_run(axis, results, run, curve, colour, label, scale=1.0, breaks_at=None):
+def draw_run(axis, results, run, curve, colour, label, scale=1.0, breaks_at=None, linestyle="-"):
     """Our own curve; False where there is none."""
     found = results.curve(run, curve)
     if not found:
         return False
     x, y = found if breaks_at is None else with_gap(*found, breaks_at)
-    axis.plot(x, scale * y, color=colour, label=label)
+    axis.plot(x, scale * y, color=colour, label=label, linestyle=linestyle)
     return True
 
 

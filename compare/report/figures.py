@@ -13,7 +13,8 @@ PLOTS = (run_out_plot, base_pressure_plot, floating_run_out_plot, centre_plot, f
 
 # Plot name -> what it shows; the page prints these beneath the plots.
 CAPTIONS = {
-    "run-out": "Run-out of the submerged collapses against time (paper, Fig. 4).",
+    "run-out": "Run-out of the submerged collapses against time (paper, Fig. 4); dash-dotted: with the choices beside the "
+               "paper's model (runs s1-sourced, s2-sourced).",
     "base-pressure": "Excess pore pressure at the base of the column at the onset (paper, Fig. 5).",
     "floating-run-out": "Run-out of floating grains and the fit l = a t^b (paper, Fig. 8). The measured a and b are not "
                         "to be had.",
