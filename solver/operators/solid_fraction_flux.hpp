@@ -1,5 +1,5 @@
 // Solid fraction that a face's volume flux carries: first-order upwind (the paper), bounded second order, or
-// the steepest bounded one (superbee), which keeps the surface of a bed within two cells.
+// the steepest bounded one (superbee), which keeps the surface of a bed sharper.
 #pragma once
 
 #include <cmath>
