@@ -23,9 +23,8 @@ constexpr double least_collisional_fraction = 1e-3;
 constexpr double seed = 0.01;
 
 // The fluctuation energy 3/2 Theta of a grain cannot exceed what gravity and moving walls can give it: a fall
-// through the whole tank. P_s^EF pushes grains apart without being charged to Theta in (7), and P_s takes the
-// old Theta for a whole step; in packed beds that hit water the two together created energy without end
-// (Theta 1e10). Without gravity there is no bound: a start may hold any Theta.
+// through the whole tank. P_s^EF pushes grains apart without being charged to Theta in (7), so that (7) alone
+// has no such bound. Without gravity there is none: a start may hold any Theta.
 double largest_granular_temperature(const Scene& scene) {
   if (scene.gravity <= 0.0) return std::numeric_limits<double>::infinity();
   double wall_speed_squared = 0.0;
@@ -157,7 +156,7 @@ class LocalBalances {
 }  // namespace
 
 // The production A S^2 w is proportional to w: divided by w the balance, 3 f rho dw/dt = A S^2 - collisions
-// w^2 - decay w, is a quadratic with one positive root. Grains at rest need no seed to be stirred.
+// w^2 - decay w, is a quadratic with one positive root, above zero for grains at rest too.
 void GranularTemperature::predict(double dt, const Field& theta, const Field& f_s, const FaceField& beta,
                                   const Field& restitution, const StrainRate& strain,
                                   Field& predicted) const {
