@@ -12,7 +12,7 @@ from matplotlib import patheffects  # noqa: E402
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW, BLACK = (
     "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#000000")
 CYCLE = [BLUE, ORANGE, GREEN, PURPLE, SKY, RED]
-MARKERS = ["o", "s", "^", "D", "v", "P", "<", "p", ">"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "<", "p", ">", "H"]  # one more than the colours of the charts: none repeats soon
 LINES = ["-", "--", "-.", ":"]
 HALO = patheffects.withStroke(linewidth=2.0, foreground="white")
 THEORY = {"color": BLACK, "linestyle": "--", "linewidth": 1.0}
