@@ -77,8 +77,8 @@ bench: setup  ## performance of the parts
 format:  ## clang-format all C++ sources in place
 	$(SOURCES) | xargs -0 -r clang-format -i
 
-tidy: setup  ## clang-tidy over all C++ sources
-	ci/tidy
+tidy: setup  ## clang-tidy over all C++ sources that changed since it last found them clean
+	ci/tidy --reference=$(REFERENCE)
 
 sanitize: setup  ## unit tests under the address and undefined-behaviour sanitizers
 	ci/build sanitize

@@ -21,6 +21,11 @@ results = [{"id": "s1-run-out", "scene": "s1", "metric": "run_out@10", "unit": "
 runs = [{"id": "s1", "numbers": {"core_seconds": 3.0}}]
 (out / "results.json").write_text(json.dumps({"results": results, "runs": runs}))
 """
+MAKEFILE = """test:
+\t@echo tests with labels $(LABELS)
+sanitize tidy:
+\t@echo $@ with REFERENCE=$(REFERENCE)
+"""
 PERFORMANCE = """#!/usr/bin/python3
 import json, sys
 json.dump({"s1 least core-seconds": {"value": 3.0, "unit": "s"}}, open(sys.argv[sys.argv.index("--times") + 1], "w"))
@@ -45,7 +50,7 @@ def repository(tmp_path):
     for name, text in scripts.items():
         (root / name).write_text(text)
         (root / name).chmod(0o755)
-    (root / "Makefile").write_text("test:\n\t@echo tests\n")
+    (root / "Makefile").write_text(MAKEFILE)
     (root / "value").write_text("2.16")
     (root / ".gitignore").write_text("out/\n__pycache__/\n")
     git(root, "init", "-q")
@@ -90,8 +95,11 @@ def test_twice_on_one_commit_is_no_change_then_a_change_then_blessed(repository)
 
     runs = sorted((repository / "out/nightly/runs").iterdir())
     assert len(runs) == 4
-    assert {"1-clone.log", "2-build.log", "3-tests.log", "4-verify.log", "6-performance.log", "summary.txt", "trends.html",
+    assert {"1-clone.log", "2-build.log", "3-tests.log", "4-sanitize.log", "5-tidy.log", "6-verify.log",
+            "8-performance.log", "summary.txt", "trends.html",
             "state.json", "times.json", "verify"} <= {p.name for p in runs[0].iterdir()}
+    for log in ("4-sanitize.log", "5-tidy.log"):
+        assert "REFERENCE=on" in (runs[0] / log).read_text()
     assert not (repository / "out/nightly/clone").exists()
     page = (runs[-1] / "trends.html").read_text()
     assert "data:image/png;base64," in page and "http" not in page
@@ -102,7 +110,7 @@ def test_broken_build_blocks_the_rest_but_is_reported(repository):
     commit(repository)
     done = nightly(repository)
     assert done.returncode == 1
-    assert "build: failed, tests: blocked, verify: blocked" in done.stdout
+    assert "build: failed, tests: blocked, sanitize: blocked, tidy: blocked, verify: blocked" in done.stdout
 
 
 def test_interrupted_run_goes_on(repository):
@@ -115,7 +123,7 @@ def test_interrupted_run_goes_on(repository):
     flag.touch()
     again = nightly(repository)
     assert "going on with" in again.stdout
-    assert "2/7 build        passed (before)" in again.stdout
+    assert "2/9 build        passed (before)" in again.stdout
     assert again.returncode == 0, again.stdout + again.stderr
     assert len(list((repository / "out/nightly/runs").iterdir())) == 1
 
@@ -133,11 +141,12 @@ def test_interrupted_run_begins_anew_where_its_clone_is_of_another_commit(reposi
     assert again.returncode == 0, again.stdout + again.stderr
 
 
-def test_a_trial_runs_the_unit_tests_and_leaves_the_benchmarks_out(repository):
-    (repository / "Makefile").write_text("test:\n\t@echo labels $(LABELS)\n")
+def test_a_trial_runs_the_unit_tests_and_leaves_benchmarks_and_sanitizers_out(repository):
     (repository / "ci/bench").write_text("#!/bin/sh\nexit 1\n")
     commit(repository)
-    assert nightly(repository, "--frequency", "short").returncode == 0
+    trial = nightly(repository, "--frequency", "short")
+    assert trial.returncode == 0
+    assert "sanitize" not in trial.stdout and "tidy" not in trial.stdout
     log = next((repository / "out/nightly/runs").iterdir()) / "3-tests.log"
     assert "labels unit" in log.read_text()
     assert nightly(repository).returncode == 1
@@ -148,9 +157,19 @@ def test_stages_can_be_left_out_and_are_named(repository):
     commit(repository)
     done = nightly(repository, "--without", "tests", "reference")
     assert done.returncode == 0, done.stdout
-    assert "3/5 verify" in done.stdout and "stages left out\n  reference\n  tests\n" in done.stdout
-    log = next((repository / "out/nightly/runs").iterdir()) / "2-build.log"
-    assert "built with --programs --reference=off release" in log.read_text()
+    assert "5/7 verify" in done.stdout and "stages left out\n  reference\n  tests\n" in done.stdout
+    run = next((repository / "out/nightly/runs").iterdir())
+    assert "built with --programs --reference=off release" in (run / "2-build.log").read_text()
+    for log in ("3-sanitize.log", "4-tidy.log"):
+        assert "REFERENCE=off" in (run / log).read_text()
+
+
+def test_findings_of_sanitizers_and_lint_are_named_and_the_rest_runs(repository):
+    (repository / "Makefile").write_text(MAKEFILE + "\t@exit 1\n")
+    commit(repository)
+    done = nightly(repository)
+    assert done.returncode == 1
+    assert "stages not passed: sanitize: failed, tidy: failed" in done.stdout and "6/9 verify       passed" in done.stdout
 
 
 def test_a_run_that_failed_is_named(repository):

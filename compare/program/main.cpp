@@ -105,9 +105,7 @@ void add_common(CLI::App& command, Options& options) {
       ->transform(CLI::CheckedTransformer(frequencies));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app{"Judges runs by the table of checks, and studies what a scene needs"};
   app.require_subcommand(1);
   Options options;
@@ -158,11 +156,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  if (*extract) return extract_series(laid, options.paths);
+  if (study.parsed()) return study.run();
+  if (*lay_command) return lay_beside(laid, options.paths);
+  return *plan ? print_plan(options) : check_runs(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    if (*extract) return extract_series(laid, options.paths);
-    if (study.parsed()) return study.run();
-    if (*lay_command) return lay_beside(laid, options.paths);
-    return *plan ? print_plan(options) : check_runs(options);
+    return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
     fmt::print(stderr, "granvof-compare: {}\n", error.what());
     return 2;

@@ -210,6 +210,7 @@ std::vector<std::string> recommendations(const ChartResult& result) {
       continue;
     }
     std::vector<std::string> parts;
+    parts.reserve(tolerances.size());
     for (const double tolerance : tolerances)
       parts.push_back(fmt::format("for {:g} % {}", 100.0 * tolerance, advice(result, panel, tolerance)));
     line += fmt::format("{}", fmt::join(parts, "; "));

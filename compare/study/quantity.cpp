@@ -55,6 +55,7 @@ bool complete(const Needs& needs, const Parameters& p) {
 
 std::string allowed() {
   std::vector<std::string_view> names;
+  names.reserve(curves.size() + metrics().size());
   for (const CurveEntry& entry : curves) names.push_back(entry.name);
   for (const MetricEntry& entry : metrics()) names.push_back(entry.name);
   return fmt::format("{}", fmt::join(names, ", "));

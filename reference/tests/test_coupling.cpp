@@ -51,7 +51,7 @@ CoupledRun start(const TankSetup& s, const std::vector<double>& position, double
   demvof::CouplingSettings coupling;
   coupling.fluid_dt = fluid_dt;
   coupling.predict_pressure = predict_pressure;
-  return CoupledRun(coupling, s.beads, beads, {}, s.fluid, std::vector<double>(s.cells(), 1.0));
+  return {coupling, s.beads, beads, {}, s.fluid, std::vector<double>(s.cells(), 1.0)};
 }
 
 // Speed at which drag (8), (9) at this solid fraction balances the submerged weight [m/s].

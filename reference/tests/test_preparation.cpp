@@ -50,7 +50,8 @@ TEST(Disperse, FillsHalfOfTheBoxWithoutOverlap) {
 
 TEST(RoughFloor, CoversSeventyPercentWithoutOverlapInPlan) {
   const auto x = demvof::rough_floor({0.05, 0.004, true}, d, 5);
-  const double covered = static_cast<double>(x.size() / 3) * std::numbers::pi / 4.0 * d * d / (0.05 * 0.004);
+  const std::size_t count = x.size() / 3;
+  const double covered = static_cast<double>(count) * std::numbers::pi / 4.0 * d * d / (0.05 * 0.004);
   EXPECT_NEAR(covered, 0.7, 0.01);
   EXPECT_LT(deepest_overlap(x, 0.004, true), 0.01 * d);
   for (std::size_t n = 1; n < x.size(); n += 3) {

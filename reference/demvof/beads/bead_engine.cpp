@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -31,9 +32,12 @@ void FluidLoad::resize(std::size_t beads) {
   force.assign(3 * beads, 0.0);
 }
 
-BeadEngine::BeadEngine(const BeadSettings& settings, const BeadState& mobile,
+BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
                        const std::vector<double>& frozen_positions)
-    : settings_(settings), mobile_(mobile.count()), frozen_(frozen_positions.size() / 3), state_(mobile) {
+    : settings_(std::move(settings)),
+      mobile_(mobile.count()),
+      frozen_(frozen_positions.size() / 3),
+      state_(mobile) {
   std::filesystem::create_directories(settings_.scratch_folder);
   state_.velocity.resize(3 * mobile_, 0.0);
 
@@ -41,6 +45,7 @@ BeadEngine::BeadEngine(const BeadSettings& settings, const BeadState& mobile,
   std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log",
                                  settings_.scratch_folder + "/liggghts.log"};
   std::vector<char*> arguments;
+  arguments.reserve(words.size());
   for (std::string& word : words) arguments.push_back(word.data());
   lammps_open(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD, &lammps_);
 

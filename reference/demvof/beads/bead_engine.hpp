@@ -25,8 +25,7 @@ struct FluidLoad {
 class BeadEngine {
  public:
   // Throws std::runtime_error when the scratch folder cannot be written. MPI must be initialised.
-  BeadEngine(const BeadSettings& settings, const BeadState& mobile,
-             const std::vector<double>& frozen_positions);
+  BeadEngine(BeadSettings settings, const BeadState& mobile, const std::vector<double>& frozen_positions);
   ~BeadEngine();
   BeadEngine(const BeadEngine&) = delete;
   BeadEngine& operator=(const BeadEngine&) = delete;

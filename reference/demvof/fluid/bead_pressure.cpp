@@ -25,7 +25,7 @@ tmp<volVectorField> predict_pressure_gradient(Fluid::Fields& f, double dt, const
   volVectorField force("beadForce", f.force);
   volScalarField drag("beadDrag", f.drag);
   forAll(velocity, cell) {
-    const std::size_t c = static_cast<std::size_t>(cell);
+    const auto c = static_cast<std::size_t>(cell);
     velocity[cell] = vector(beads.velocity[0][c], beads.velocity[1][c], beads.velocity[2][c]);
     force[cell] = vector(beads.force[0][c], beads.force[1][c], beads.force[2][c]);
     drag[cell] = beads.drag_coefficient[c];

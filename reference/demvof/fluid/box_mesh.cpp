@@ -82,8 +82,11 @@ std::unique_ptr<Foam::fvMesh> make_box_mesh(const FluidSettings& s, const Foam::
     size[side] = faces.size() - start[side];
   }
 
-  Foam::faceList face_list(faces);
-  Foam::labelList owner_list(owner), neighbour_list(neighbour);
+  Foam::faceList face_list;
+  Foam::labelList owner_list, neighbour_list;
+  face_list.transfer(faces);
+  owner_list.transfer(owner);
+  neighbour_list.transfer(neighbour);
   if (neighbour_list.size() != inner) throw std::runtime_error("box mesh: inner faces do not match");
   auto mesh = std::make_unique<Foam::fvMesh>(
       Foam::IOobject("region0", time.timeName(), time, Foam::IOobject::READ_IF_PRESENT), std::move(points),

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -58,7 +59,7 @@ void make_folder(const std::string& path) {
 
 }  // namespace
 
-CaseFolder::CaseFolder(const std::string& parent) : parent_(parent) {
+CaseFolder::CaseFolder(std::string parent) : parent_(std::move(parent)) {
   static int instances = 0;  // several fluids may live in one process (tests)
   name_ = "fluid-" + std::to_string(::getpid()) + "-" + std::to_string(instances++);
   const char* etc = "/usr/share/openfoam";

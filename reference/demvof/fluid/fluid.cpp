@@ -60,7 +60,7 @@ void Fluid::step(double dt, const BeadLoad& load) {
     f.alpha.oldTime();
     scalarField& eps = f.eps.primitiveFieldRef();
     forAll(eps, cell) {
-      const std::size_t c = static_cast<std::size_t>(cell);
+      const auto c = static_cast<std::size_t>(cell);
       eps[cell] = load.void_fraction[c];
       f.drag[cell] = load.drag_coefficient[c];
       f.force[cell] = vector(load.force[0][c], load.force[1][c], load.force[2][c]);
@@ -97,7 +97,7 @@ std::array<std::vector<double>, 3> Fluid::predict_pressure_gradient(double dt, c
 
 void Fluid::refresh_view() {
   const Fields& f = *fields_;
-  const std::size_t n = static_cast<std::size_t>(f.mesh.nCells());
+  const auto n = static_cast<std::size_t>(f.mesh.nCells());
   view_.alpha.resize(n);
   view_.pressure.resize(n);
   for (int d = 0; d < 3; ++d) {
@@ -105,7 +105,7 @@ void Fluid::refresh_view() {
     view_.pressure_gradient[d].resize(n);
   }
   for (std::size_t c = 0; c < n; ++c) {
-    const label cell = static_cast<label>(c);
+    const auto cell = static_cast<label>(c);
     view_.alpha[c] = f.alpha[cell];
     view_.pressure[c] = f.p_rgh[cell] + f.rho[cell] * f.gh[cell];
     for (int d = 0; d < 3; ++d) {
@@ -117,7 +117,7 @@ void Fluid::refresh_view() {
   courant_ = courant_liquid_ = 0.0;
   const scalarField flux(fvc::surfaceSum(mag(f.phi))().primitiveField());
   for (std::size_t c = 0; c < n; ++c) {
-    const label cell = static_cast<label>(c);
+    const auto cell = static_cast<label>(c);
     const double rate = 0.5 * flux[cell] / (f.eps[cell] * f.cell_volume());
     courant_ = std::max(courant_, rate);
     if (f.alpha[cell] > 1e-3) courant_liquid_ = std::max(courant_liquid_, rate);

@@ -49,12 +49,12 @@ const PatchTypes velocity{"noSlip", "slip", "pressureInletOutletVelocity"};
 const PatchTypes pressure{"fixedFluxPressure", "fixedFluxPressure", "totalPressure"};
 
 IOobject named(const char* name, const fvMesh& mesh) {
-  return IOobject(name, mesh.time().timeName(), mesh);
+  return {name, mesh.time().timeName(), mesh};
 }
 
 volScalarField scalar_field(const char* name, const fvMesh& mesh, const dimensionSet& dimensions,
                             const wordList& types) {
-  return volScalarField(named(name, mesh), mesh, dimensionedScalar(name, dimensions, 0.0), types);
+  return {named(name, mesh), mesh, dimensionedScalar(name, dimensions, 0.0), types};
 }
 
 template <typename Values>
@@ -67,7 +67,7 @@ volScalarField filled(const char* name, const fvMesh& mesh, const wordList& type
 
 surfaceScalarField face_field(const char* name, const fvMesh& mesh, const dimensionSet& dimensions,
                               double value) {
-  return surfaceScalarField(named(name, mesh), mesh, dimensionedScalar(name, dimensions, value));
+  return {named(name, mesh), mesh, dimensionedScalar(name, dimensions, value)};
 }
 
 dictionary control() {
@@ -118,8 +118,7 @@ Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
       drag(named("drag", mesh), mesh, dimensionedScalar("0", dimDensity / dimTime, 0.0)),
       force(named("force", mesh), mesh, dimensionedVector("0", dimForce / dimVolume, vector::zero),
             patch_types(s, plain)),
-      open(face_field("open", mesh, dimless, 1.0)),
-      closed(true) {
+      open(face_field("open", mesh, dimless, 1.0)) {
   for (const FluidSide side : s.sides) closed = closed && side != FluidSide::open;
   const dimensionedScalar top("top", dimAcceleration * dimLength, -s.gravity * s.cells[1] * s.spacing[1]);
   gh -= top;

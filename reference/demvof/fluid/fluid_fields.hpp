@@ -8,8 +8,8 @@
 namespace demvof {
 
 struct Fluid::Fields {
-  Fields(const FluidSettings& settings, const std::vector<double>& alpha,
-         const std::vector<double>& void_fraction);
+  // Of Fluid's constructor: settings, liquid share and void fraction at the start.
+  Fields(const FluidSettings& s, const std::vector<double>& alpha0, const std::vector<double>& eps0);
 
   FluidSettings settings;
   CaseFolder folder;
@@ -31,11 +31,11 @@ struct Fluid::Fields {
   Foam::volScalarField drag;      // K [kg/(m3 s)]
   Foam::volVectorField force;     // explicit force density of the beads [N/m3]
   Foam::surfaceScalarField open;  // share of a face that a gate leaves open [-]
-  bool closed;                    // no open side: the pressure level is free
+  bool closed = true;             // no open side: the pressure level is free
   Vector boundary_force{};        // of the last step [N]
 
   Foam::dimensionedVector gravity() const {
-    return Foam::dimensionedVector("g", Foam::dimAcceleration, Foam::vector(0, -settings.gravity, 0));
+    return {"g", Foam::dimAcceleration, Foam::vector(0, -settings.gravity, 0)};
   }
   double cell_volume() const { return settings.spacing[0] * settings.spacing[1] * settings.spacing[2]; }
 };

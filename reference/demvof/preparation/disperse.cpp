@@ -51,7 +51,8 @@ class Cloud {
 
  private:
   std::size_t slot(int i, int j, int k) const {
-    return static_cast<std::size_t>((k * bins_[1] + j) * bins_[0] + i);
+    return static_cast<std::size_t>(k * bins_[1] + j) * static_cast<std::size_t>(bins_[0]) +
+           static_cast<std::size_t>(i);
   }
   std::array<int, 3> bin_of(const std::vector<double>& x, int bead) const {
     std::array<int, 3> bin{};

@@ -24,6 +24,17 @@ struct Arguments {
   demvof::RecordOptions record;
 };
 
+// MPI from here to the end of the scope, however it is left.
+class MpiSession {
+ public:
+  MpiSession(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
+  ~MpiSession() { MPI_Finalize(); }
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+  MpiSession(MpiSession&&) = delete;
+  MpiSession& operator=(MpiSession&&) = delete;
+};
+
 void add_case(CLI::App& command, Arguments& arguments) {
   command.add_option("case", arguments.case_file, "Case file (TOML)")->required()->type_name("CASE");
   command.add_option("--set", arguments.overrides, "Replace a key of the case; may be given again")
@@ -36,18 +47,6 @@ void add_places(CLI::App& command, Arguments& arguments) {
   command.add_option("--scratch", arguments.record.scratch, "Folder for intermediate files")
       ->type_name("DIR");
   command.add_option("--seed", arguments.record.seed, "Seed of the beads and the floor");
-}
-
-int guarded(int (*action)(const Arguments&), const Arguments& arguments) {
-  try {
-    return action(arguments);
-  } catch (const granvof::CaseError& error) {
-    fmt::print(stderr, "demvof: {}\n", error.what());
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "demvof: {}\n", error.what());
-    return 1;
-  }
 }
 
 int run(const Arguments& arguments) {
@@ -73,9 +72,7 @@ int hash(const Arguments& arguments) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app("demvof: unresolved DEM-VOF with LIGGGHTS and OpenFOAM, the reference of granvof");
   app.require_subcommand(1);
   Arguments arguments;
@@ -104,8 +101,21 @@ int main(int argc, char** argv) {
     app.exit(error);
     return bad_input;
   }
-  MPI_Init(&argc, &argv);
-  const int code = guarded(*run_command ? run : *chute_command ? chute : hash, arguments);
-  MPI_Finalize();
-  return code;
+  const MpiSession session(argc, argv);
+  if (*run_command) return run(arguments);
+  return *chute_command ? chute(arguments) : hash(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const granvof::CaseError& error) {
+    fmt::print(stderr, "demvof: {}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "demvof: {}\n", error.what());
+    return 1;
+  }
 }

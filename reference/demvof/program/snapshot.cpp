@@ -98,10 +98,12 @@ double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene) 
   const int first = static_cast<int>(std::lround(scene.bed->box.lower[0] / scene.grid.spacing[0]));
   const int last =
       std::max(first + 1, static_cast<int>(std::lround(scene.bed->box.upper[0] / scene.grid.spacing[0])));
+  const auto layer =
+      static_cast<std::size_t>(scene.grid.cells[0]) * static_cast<std::size_t>(scene.grid.cells[1]);
   double sum = 0.0;
   for (int k = 0; k < scene.grid.cells[2]; ++k) {
     for (int i = first; i < last; ++i) {
-      sum += pressure[static_cast<std::size_t>(k * scene.grid.cells[1] * scene.grid.cells[0] + i)] - own;
+      sum += pressure[static_cast<std::size_t>(k) * layer + static_cast<std::size_t>(i)] - own;
     }
   }
   return sum / ((last - first) * scene.grid.cells[2]);

@@ -75,6 +75,7 @@ struct ScalarSystem {
   Matrix matrix(const Box& box) const {
     std::vector<Eigen::Triplet<double>> entries;
     const Vector m = box.gather(mass);
+    entries.reserve(static_cast<std::size_t>(m.size()));
     for (int c = 0; c < m.size(); ++c) entries.emplace_back(c, c, m[c]);
     box.each_face([&](int d, std::ptrdiff_t index, int cell, int lower) {
       if (!faces.lower[d]) return;

@@ -18,7 +18,7 @@ constexpr double half_weight = 0.5 * 1500.0 * 9.81 * h;  // of beads under water
 
 // Columns under water, all alike: solid fractions from the floor up, and P_s everywhere.
 struct Column {
-  Column(const std::array<double, rows>& fractions, double pressure, Scene scene = submerged())
+  Column(const std::array<double, rows>& fractions, double pressure, const Scene& scene = submerged())
       : s(scene), alpha(s.grid, 1.0), p_s(s.grid, pressure), support(s.grid), resting(s.grid) {
     f_s = Field(s.grid);
     s.each_cell([&](int, int j, int, std::ptrdiff_t c) { f_s[c] = fractions[static_cast<std::size_t>(j)]; });
