@@ -20,15 +20,16 @@ def tree(tmp_path):
     (root / "ci/build").write_text(CONFIGURE)
     (root / "ci/build").chmod(0o755)
     (root / ".clang-tidy").write_text("Checks: '-*,modernize-use-nullptr'\nWarningsAsErrors: '*'\nHeaderFilterRegex: '.*'\n")
-    sources = {"solver/a.cpp": '#include "solver/a.hpp"\nint a() { return made(); }\n', "compare/b.cpp": "int b() { return 1; }\n",
+    sources = {"solver/a.cpp": '#include "solver/a.hpp"\nint a() { return made(); }\n', "compare/b.cpp": "#ifdef AGAIN\nint* b = 0;\n#endif\n",
                "build/tidy/solver/generated.cpp": "int* c = 0;\n"}
     commands = []
     for name, text in sources.items():
         path = root / name
         path.parent.mkdir(parents=True)
         path.write_text(text)
-        commands += 2 * [{"directory": str(root / "build/tidy"), "file": str(path),
-                          "command": f"/usr/bin/c++ -I{root} -std=c++20 -o {name}.o -c {path}"}]
+        for flags in ("-std=c++20", "-std=c++20 -DAGAIN"):  # of two targets; the first one counts
+            commands.append({"directory": str(root / "build/tidy"), "file": str(path),
+                             "command": f"/usr/bin/c++ -I{root} {flags} -o {name}.o -c {path}"})
     (root / "solver/a.hpp").write_text("inline int made() { return 1; }\n")
     (root / "build/tidy/compile_commands.json").write_text(json.dumps(commands))
     return root

@@ -32,8 +32,8 @@ class Records : public testing::Test {
   // A front that runs `reach` from 0.03 m within 0.2 s.
   void record(const std::string& directory, double reach) {
     write(directory + "/record.json",
-          "{\"case_hash\": \"" + scene_.reference_hash +
-              "\", \"core_seconds\": 50, \"monitors\": {\"preparation_core_seconds\": 15}}");
+          R"({"case_hash": ")" + scene_.reference_hash +
+              R"(", "core_seconds": 50, "monitors": {"preparation_core_seconds": 15}})");
     write(directory + "/series.csv", "time [s],front_dense [m]\n0,0.03\n0.1," +
                                          std::to_string(0.03 + 0.5 * reach) + "\n0.2," +
                                          std::to_string(0.03 + reach) + "\n");
