@@ -121,7 +121,8 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   return report;
 }
 
-// Kinetic viscosity of the step, at the Theta that the shear of the last one predicts.
+// Kinetic viscosity of the step: at the old Theta, or where grains begin to shear at a share of what they
+// get.
 void TimeStep::stir_grains(const State& now, double dt) {
   if (scene_.model.granular_temperature == TemperatureModel::off) return;
   strain_.update(grid_, now.u_strain);
