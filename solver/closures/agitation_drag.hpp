@@ -7,8 +7,8 @@
 // fluid this agitation is dragged: beta dv^2 per volume, taken from the shear, is a shear stress beta dv^2 /
 // gamma. The beads of demvof follow the same law: c = 0.30 in s2 (quartiles 0.26 and 0.34 over 1690 cells and
 // T = 1 to 8), 0.33 in the canary (0.28, 0.37), 0.38 in the canary in air (0.30, 0.45), from the Theta of
-// their fluid cells with f_s > 0.5 and I > 0.02, the shear within a cell taken off. In s2 drag takes 5 to 10 %
-// of all that is lost that way. (c = 1/3 as remembered: the paper was not at hand.)
+// their fluid cells with f_s > 0.5 and I > 0.02, the shear within a cell taken off. In s2 drag takes 5 to 10
+// % of all that is lost that way. (c = 1/3 as remembered: the paper was not at hand.)
 //
 // A rearrangement takes d_s sqrt(rho_s / P) and stirs grains anew: drag cannot take more than their energy in
 // that time. With this bound it adds at most c^2 f_s = 0.06 to the friction coefficient, in viscous liquids

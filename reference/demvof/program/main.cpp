@@ -95,11 +95,8 @@ int parse_and_run(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
-    return bad_input;
+    return app.exit(error) == 0 ? 0 : bad_input;
   }
   const MpiSession session(argc, argv);
   if (*run_command) return run(arguments);
