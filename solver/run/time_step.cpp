@@ -44,6 +44,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       rhs_(grid),
       flux_s_(grid),
       flux_c_(grid),
+      flux_c_solved_(grid),
       stirred_(grid),
       production_(grid) {}
 
@@ -87,6 +88,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 
   cost_.time("transport", [&] {
     keep_solid_positive(grid_, boundary_, dt, now.f_s, flux_s_, flux_c_);
+    flux_c_solved_ = flux_c_;
     close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);
     transport_solid(grid_, dt, now.f_s, flux_s_, next.f_s);
   });
@@ -239,9 +241,10 @@ void TimeStep::account_energy(const State& now, double dt, const Friction::Power
                               const GranularLosses& granular, double dilated, double liquid_left,
                               State& next) {
   const FluidViscosity::Power viscous = viscosity_.power(boundary_);
-  next.energy.add(budget_.of_step(dt, now, next,
-                                  {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_,
-                                   rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
+  next.energy.add(
+      budget_.of_step(dt, now, next,
+                      {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_, flux_c_solved_,
+                       rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

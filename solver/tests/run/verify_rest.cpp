@@ -69,8 +69,6 @@ TEST_P(Liquid, IsKeptToRounding) {
           -max_over(run.grid.cells, run.grid.all_cells(), -least, [=](std::ptrdiff_t c) { return -a[c]; });
     });
     ASSERT_FALSE(HasFatalFailure()) << scheme;
-    std::printf("  %s: liquid %.2g, solid %.2g in %d steps\n", scheme, monitors.liquid_volume_error(),
-                monitors.solid_volume_error(), run.steps);
     EXPECT_LT(monitors.liquid_volume_error(), 1e-12) << scheme;
     EXPECT_LT(monitors.solid_volume_error(), 1e-12) << scheme;
     EXPECT_GE(least, 0.0);
@@ -133,7 +131,6 @@ TEST_P(PressureLevel, StandsInASealedTank) {
     lid = std::fmax(lid, std::fabs(p.lid));
     if (run.now.time > 0.5) base = std::fmax(base, std::fabs(p.base - at_rest));
   });
-  std::printf("  lid %.2g Pa, base %.4g Pa off %.5g Pa\n", lid, base, at_rest);
   EXPECT_LT(lid, 1e-10 * at_rest);
   EXPECT_LT(base, 1.0);
   EXPECT_GT(at_rest, 700.0);
@@ -156,8 +153,6 @@ TEST(PressureLevel, NoSuctionIsLeftBySettledGrains) {
   double least = water;
   run.until(3.0, [&] { least = std::fmin(least, mean_pressure(run).base); });
   const double grains = 0.1 * 1500.0 * 9.81 * 0.12;  // their submerged weight per area [Pa]
-  std::printf("  least %.4g, end %.4g, water %.5g, grains %.4g Pa\n", least, mean_pressure(run).base, water,
-              grains);
   EXPECT_GT(least, water - 0.02 * grains);
   EXPECT_NEAR(mean_pressure(run).base, water, 0.02 * grains);
 }
