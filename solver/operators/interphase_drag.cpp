@@ -6,8 +6,8 @@
 
 namespace granvof {
 
-void InterphaseDrag::update(const FaceField& u_s, const FaceField& u_c, const Field& alpha,
-                            const FaceInertia& inertia) {
+void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c,
+                            const Field& alpha, const FaceInertia& inertia) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
     const double* us = u_s[d].data();
@@ -42,6 +42,7 @@ void InterphaseDrag::update(const FaceField& u_s, const FaceField& u_c, const Fi
       beta[c] =
           closures::drag_coefficient(f[c], 0.5 * (a[c] + a[c - s]), std::sqrt(square), gas, liquid, d_s);
     });
+    boundary.exchange(beta_[d]);
   }
 }
 
