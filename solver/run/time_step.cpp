@@ -29,7 +29,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       drag_(grid, scene),
       rheology_(grid),
       viscosity_(grid, scene),
-      implicit_viscosity_(grid, boundary, communicator),
+      implicit_viscosity_(grid, scene, boundary, communicator),
       friction_(grid, scene, boundary, communicator),
       pressure_(grid, scene, boundary, communicator),
       interface_(grid, scene, boundary),

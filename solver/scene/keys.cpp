@@ -158,7 +158,7 @@ std::vector<Key> bed_keys() {
 }
 
 std::vector<Key> time_keys() {
-  const std::string unit = "time.unit";
+  const std::string unit(unit_of_times);
   return {
       required(key("time.end", unit, positive, MEMBER(times.end), "Length of the run.")),
       choice("time.unit", Words<TimeUnit>{{"s", TimeUnit::second}, {"column", TimeUnit::column}},
@@ -176,8 +176,8 @@ std::vector<Key> time_keys() {
               "case brings forward drops the later ones."),
           "0 and the end"),
       key("output.field_interval", unit, positive, MEMBER(times.field_interval), "Instead of field_times."),
-      key("output.checkpoint_interval", "s", not_negative, MEMBER(times.checkpoint_interval),
-          "Wall-clock time between checkpoints; 0: at the end and on failure only."),
+      key("output.checkpoint_interval", "wall-clock s", not_negative, MEMBER(times.checkpoint_interval),
+          "Time between checkpoints; 0: at the end and on failure only."),
   };
 }
 
