@@ -30,12 +30,14 @@ TEST(Units, AreRead) {
   expect("kg/m3 s", {1, -3, -1});
   expect("Pa s", {1, -1, -1});
   expect("J", {1, 2, -2});
-  for (const char* unit : {"mm", "g/cm3", "m/", "m//s", "m ", "2", "m2x"}) EXPECT_FALSE(dimension_of(unit)) << unit;
+  for (const char* unit : {"mm", "g/cm3", "m/", "m//s", "m ", "2", "m2x"})
+    EXPECT_FALSE(dimension_of(unit)) << unit;
 }
 
 TEST(Units, OfEveryKeyAreKnown) {
   for (const case_file::Key& key : case_file::keys())
-    EXPECT_TRUE(key.unit == case_file::unit_of_times || dimension_of(key.unit)) << key.name << " [" << key.unit << "]";
+    EXPECT_TRUE(key.unit == case_file::unit_of_times || dimension_of(key.unit))
+        << key.name << " [" << key.unit << "]";
 }
 
 TEST(Units, FactorsMultiplyByDimension) {
@@ -69,6 +71,16 @@ TEST(Restate, MultipliesEveryDimensionalKey) {
   EXPECT_EQ(b.times.checkpoint_interval, 60.0);
   EXPECT_EQ(b.reference->young, a.reference->young * 2.0 / 8.0 / 0.25);
   EXPECT_EQ(b.reference->seeds, a.reference->seeds);
+}
+
+TEST(Restate, NeedsNoStatedSteps) {
+  // The defaults follow the scene: a model of 1 to 100 by Froude's rule takes steps a tenth as long.
+  const Scene a = small(), b = small({"tank.size=[0.004, 0.0012]", "grid.dx=1e-4", "liquid.level=7e-4",
+                                      "bed.length=1e-3", "bed.height=5e-4", "reference=false"});
+  EXPECT_DOUBLE_EQ(a.numerics.dt_max, 0.07 * a.times.unit);
+  EXPECT_DOUBLE_EQ(b.numerics.dt_max, 0.1 * a.numerics.dt_max);
+  EXPECT_DOUBLE_EQ(b.numerics.dt_min, 0.1 * a.numerics.dt_min);
+  EXPECT_DOUBLE_EQ(small({"numerics.dt_max=5e-3"}).numerics.dt_min, 1e-9);
 }
 
 TEST(Restate, LeavesTimesInColumnUnits) {
@@ -115,9 +127,12 @@ TEST(Scales, WithoutABed) {
 TEST(Scales, AreRestatedWithTheCase) {
   const UnitFactors f{1.0 / 150.0, 0.01, 1000.0};
   for (const std::vector<std::string>& set :
-       {std::vector<std::string>{}, {"solid.density=1000"}, {"tank.gravity=0", "time.unit=s"},
+       {std::vector<std::string>{},
+        {"solid.density=1000"},
+        {"tank.gravity=0", "time.unit=s"},
         {"bed=false", "solid=false", "gate=false", "reference=false", "time.unit=s"}}) {
-    const Scales a = scales_of(small(set)), b = scales_of(parse_scene(restated_case(small(set), f), "restated"));
+    const Scales a = scales_of(small(set)),
+                 b = scales_of(parse_scene(restated_case(small(set), f), "restated"));
     EXPECT_NEAR(b.length / a.length / f.of({0, 1, 0}), 1.0, 1e-14);
     EXPECT_NEAR(b.velocity / a.velocity / f.of({0, 1, -1}), 1.0, 1e-14);
     EXPECT_NEAR(b.pressure / a.pressure / f.of({1, -1, -2}), 1.0, 1e-14);
