@@ -14,7 +14,7 @@ struct Scales {
   double velocity;  // sqrt(g length), of the fastest wall if that is faster, else length / time.end [m/s]
   double pressure;  // load of the bed: weight in the fluid it is lightest in, or inertia rho_s velocity^2
                     // where walls or nothing but the run's length set the velocity [Pa]
-  double energy;  // 1/2 density velocity^2 of the whole tank, of the continuous phase [J]
+  double energy;    // 1/2 density velocity^2 of the whole tank, of the continuous phase [J]
 
   double time() const { return length / velocity; }  // sqrt(length / g) [s]; of a bed the unit "column"
 };

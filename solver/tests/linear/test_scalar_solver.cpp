@@ -65,6 +65,26 @@ INSTANTIATE_TEST_SUITE_P(Boxes, ScalarShapes,
                                            std::array{10, 8, 6, 1, 1, 1}, std::array{2, 2, 1, 1, 1, 0},
                                            std::array{1, 1, 1, 0, 0, 0}, std::array{130, 80, 1, 0, 0, 0}));
 
+// A right-hand side of 1e-24, as a small Theta has: its squares are none in single precision.
+TEST(ScalarSolver, SmallResidualsAreSolvedLikeLargeOnes) {
+  const double small = std::ldexp(1.0, -80);
+  Box b({24, 16, 1}, {false, false, false});
+  ScalarSystem s(b, [&](int, int, int) { return b.uniform(0.1, 10.0); });
+  b.each([&](int i, int j, int k) { s.mass[b.layout.index(i, j, k)] = b.uniform(0.01, 1.0); });
+  random_rhs(b, s);
+  const Report large = check(b, s, 1e-10, 1e-8);
+  const Values answer = s.x;
+  b.each([&](int i, int j, int k) {
+    s.rhs[b.layout.index(i, j, k)] *= small;
+    s.x[b.layout.index(i, j, k)] = 0.0;
+  });
+  const Report report = check(b, s, 1e-10, 1e-8);
+  EXPECT_EQ(report.iterations, large.iterations);
+  b.each([&](int i, int j, int k) {
+    EXPECT_EQ(s.x[b.layout.index(i, j, k)], small * answer[b.layout.index(i, j, k)]);
+  });
+}
+
 TEST(ScalarSolver, ClosedBoxWithDensityRatioAThousand) {
   for (const bool periodic : {false, true}) {
     Box b({40, 30, 1}, {periodic, periodic, false});

@@ -14,15 +14,16 @@ inline Scene restated(const Scene& scene, const UnitFactors& factors) {
   return parse_scene(restated_case(scene, factors), scene.name + " restated");
 }
 
-// Largest difference of a field, its dimension's factor taken out, over the field's largest value. What
-// grains carry counts by their share of the cell: without any, their colour is what was there last.
+// Largest difference of a field, its dimension's factor taken out, over the field's largest value or,
+// where that is more, its scale: at rest, a velocity is a share of the scene's. What grains carry counts by
+// their share of the cell: without any, their colour is what was there last.
 struct Difference {
   double value = 0.0;
   std::string field = "none";
 
   void take(const std::string& name, const Field& a, const Field& b, double factor,
-            const Field* share = nullptr) {
-    double off = 0.0, most = 0.0;
+            const Field* share = nullptr, double scale = 0.0) {
+    double off = 0.0, most = scale;
     for (std::size_t i = 0; i < a.span().size(); ++i) {
       const double weight = share ? share->span()[i] : 1.0;
       off = std::fmax(off, weight * std::fabs(b.span()[i] / factor - a.span()[i]));
@@ -37,16 +38,17 @@ struct Difference {
 };
 
 // Of where everything is and how it moves.
-inline Difference difference_of_motion(const State& a, const State& b, int dim, const UnitFactors& factors) {
-  const double velocity = factors.of({0, 1, -1});
+inline Difference difference_of_motion(const Scene& scene, const State& a, const State& b,
+                                       const UnitFactors& factors) {
+  const double velocity = factors.of({0, 1, -1}), scale = scales_of(scene).velocity;
   Difference d;
   d.take("f_s", a.f_s, b.f_s, 1.0);
   d.take("alpha", a.alpha, b.alpha, 1.0);
   d.take("packing", a.packing, b.packing, 1.0, &a.f_s);
   d.take("phi", a.phi, b.phi, 1.0, &a.f_s);
-  for (int i = 0; i < dim; ++i) {
-    d.take("u_s", a.u_s[i], b.u_s[i], velocity);
-    d.take("u_c", a.u_c[i], b.u_c[i], velocity);
+  for (int i = 0; i < scene.dimensions; ++i) {
+    d.take("u_s", a.u_s[i], b.u_s[i], velocity, nullptr, scale);
+    d.take("u_c", a.u_c[i], b.u_c[i], velocity, nullptr, scale);
   }
   return d;
 }

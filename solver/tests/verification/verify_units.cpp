@@ -32,6 +32,11 @@ std::vector<std::string> with_all_choices(std::vector<std::string> set) {
   return set;
 }
 
+// A bed that comes to rest on water: at the usual tolerances what the pressure step leaves is 2e-5 of the
+// little that still moves.
+const std::vector<std::string> tightly_solved{"grid.dx=0.005", "numerics.volume_tolerance=1e-9",
+                                              "numerics.linear_tolerance=1e-6"};
+
 class Units : public ::testing::TestWithParam<Restated> {
  protected:
   struct Differences {
@@ -51,8 +56,7 @@ class Units : public ::testing::TestWithParam<Restated> {
     EXPECT_EQ(a.refused, b.refused);
     EXPECT_GT(a.fastest(a.now.u_c), 0.0);
     report("steps", a.steps);
-    return {difference_of_motion(a.now, b.now, a.grid.dim, factors),
-            difference_of_stress(a.now, b.now, factors)};
+    return {difference_of_motion(scene, a.now, b.now, factors), difference_of_stress(a.now, b.now, factors)};
   }
   static std::string text(const Difference& d, const UnitFactors& factors) {
     return fmt::format("{}: mass x {:.4g}, length x {}, time x {}", d.field, factors.mass, factors.length,
@@ -82,7 +86,7 @@ TEST_P(Units, OtherUnitsChangeNothing) {
     report("motion", d.motion.value);
     report("stress", d.stress.value);
     EXPECT_LT(d.motion.value, 1e-6) << text(d.motion, factors);
-    EXPECT_LT(d.stress.value, 1e-4) << text(d.stress, factors);
+    EXPECT_LT(d.stress.value, 1e-5) << text(d.stress, factors);
   }
 }
 
@@ -94,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Restated{"heap", "heap", {"grid.dx=0.01", "grid.dy=0.01"}, 2.0},
         Restated{"heap_all_choices", "heap", with_all_choices({"grid.dx=0.01", "grid.dy=0.01"}), 2.0},
         Restated{"float_full", "float-full-r04", {"grid.dx=0.005"}, 2.0},
-        Restated{"float_full_all_choices", "float-full-r04", with_all_choices({"grid.dx=0.005"}), 2.0},
+        Restated{"float_full_all_choices", "float-full-r04", with_all_choices(tightly_solved), 2.0},
         Restated{"dry_column", "dry-column", {"grid.dx=0.01", "grid.dy=0.01"}, 2.0},
         Restated{"dry_column_all_choices", "dry-column", with_all_choices({"grid.dx=0.01", "grid.dy=0.01"}),
                  2.0},
