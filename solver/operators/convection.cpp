@@ -1,11 +1,15 @@
 #include "solver/operators/convection.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "solver/operators/limiter.hpp"
 
 namespace granvof {
 namespace {
+
+constexpr double largest_courant = 0.5;  // of an explicit limited difference
 
 // Upwind difference of v along stride s at c for a carrier of sign w; limited: flux differences of van Leer's
 // reconstruction, so that a smooth v is differenced to second order and no new extremum appears. Function
@@ -75,6 +79,32 @@ void convective_acceleration_limited_in(const Field& mass, double least, const G
     return m[c] > least ? limited_difference(v, c, s, w) : upwind_difference(v, c, s, w);
   };
   convect(grid, u, d, faces, limited_inside, acceleration);
+}
+
+void bound_convection(const Grid& grid, const FaceField& u, int d, const Range& faces, double dt,
+                      const Field& fraction, double least, Field& acceleration) {
+  const double* f = fraction.data();
+  double* a = acceleration.data();
+  const std::ptrdiff_t sd = grid.stride(d);
+  const int dim = grid.dim;
+  std::array<const double*, 3> carrier{};
+  std::array<double, 3> per_h{};
+  for (int e = 0; e < dim; ++e) {
+    carrier[e] = u[e].data();
+    per_h[e] = dt / grid.h[e];
+  }
+  const std::array<std::ptrdiff_t, 3> stride = grid.cells.stride;
+  for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
+    if (f[c] >= least) return;
+    double courant = std::fabs(carrier[d][c]) * per_h[d];
+    for (int e = 0; e < dim; ++e) {
+      if (e == d) continue;
+      const double* w = carrier[e];
+      const std::ptrdiff_t s = stride[e];
+      courant += 0.25 * std::fabs(w[c] + w[c - sd] + w[c + s] + w[c + s - sd]) * per_h[e];
+    }
+    a[c] *= largest_courant / std::fmax(courant, largest_courant);
+  });
 }
 
 }  // namespace granvof

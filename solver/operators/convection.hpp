@@ -20,4 +20,11 @@ void convective_acceleration(const Grid& grid, const FaceField& u, int d, const 
 void convective_acceleration_limited_in(const Field& mass, double least, const Grid& grid, const FaceField& u,
                                         int d, const Range& faces, Field& acceleration);
 
+// For faces whose `fraction` is too small to bound the step: their acceleration, times the share of dt in
+// which their own velocity crosses half a cell. An explicit step over more than a cell grows without bound,
+// and what a handful of grains does in the gas (1e-6 of a cell, at kilometres a second) must not end a run.
+// With this share no new extremum appears.
+void bound_convection(const Grid& grid, const FaceField& u, int d, const Range& faces, double dt,
+                      const Field& fraction, double least, Field& acceleration);
+
 }  // namespace granvof

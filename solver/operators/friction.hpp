@@ -1,5 +1,8 @@
 // Implicit solid stress: Coulomb friction (17) and kinetic viscosity (16) of u_s in one symmetric system.
 //
+// friction_law.cpp has the viscosities, friction_operator.cpp the operator, friction_preconditioner.cpp what
+// it is preconditioned and judged by, friction_power.cpp its work; the solve is in friction.cpp.
+//
 //   mass u_s - div(2 mu S + lambda (div u_s) I) = rhs,  mu = f_s mu_s^K + mu_friction,  lambda = f_s mu_s^K
 // (f_s (zeta - 2/3 mu) of (16) equals f_s mu_s^K because zeta/mu = 5/3). The full tensor is kept implicit:
 // with a contrast of 1e10 its cross terms cannot be lagged. CG with one multigrid cycle a component; the wall
@@ -44,12 +47,19 @@ class Friction {
   Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end, Field& kinetic);
 
  private:
+  static constexpr int vertical = 1;
+
   void fit_box(const FaceInertia& inertia);
+  void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia);
   void set_preconditioner(const FaceField& mass);
+  void set_weights(const FaceField& mass);
+  // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see
+  // free_faces_of_part_cells(); nullptr for all of it.
+  const double* tilting(int d, int e) const;
   // y = mass u - div(stress of u) where marked, 0 elsewhere; one ghost layer of u must be filled.
   void apply(const FaceField& mass, const linear::Components& u, const linear::Components& y);
   // Tangential velocities beyond the walls: minus the inside, or mirrored about the wall's own velocity.
@@ -65,13 +75,14 @@ class Friction {
   Field mu_, lambda_;             // at cell centres [Pa s]
   std::array<Field, 3> mu_edge_;  // on edges [Pa s], by plane_index()
   std::array<Field, 3> shear_;    // shear stress on edges [Pa]
+  std::array<Field, 3> tilting_;  // with part-cells, on the edges of vertical planes [-]
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
   const Communicator& communicator_;
   std::optional<linear::ConjugateGradient> solver_;
   std::vector<linear::Multigrid> multigrid_;  // one a component
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
-  FaceField component_mass_, inverse_mass_, residual_, correction_;
+  FaceField component_mass_, weight_, residual_, correction_;
 };
 
 }  // namespace granvof

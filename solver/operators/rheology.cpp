@@ -55,7 +55,18 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
     });
     boundary.fill_scalar(agitated_drag);
   }
-  if (part_cells) extend_to_walls(grid, scene, f_s, alpha, enduring_pressure);
+  if (part_cells) {
+    const double rho_l = scene.liquid.density, rho_g = scene.gas.density;
+    double* side = free_side.data();
+    for_each(grid.cells, [=, &solid, &contact](std::ptrdiff_t c) {
+      const bool part = weight[c] > 0.0 && f[c] < touching[c] &&
+                        closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, 0.0,
+                                                    touching[c]) < weight[c] * f[c];
+      side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
+    });
+    boundary.exchange(free_side);
+    extend_to_walls(grid, scene, f_s, alpha, enduring_pressure);
+  }
 }
 
 void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,

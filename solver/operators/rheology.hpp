@@ -15,6 +15,8 @@ struct Rheology {
   Field agitated_drag;      // beta that agitation is dragged by [kg/m3 s]; 0 without agitation drag
   Field resting;            // weight of grains in partly filled cells [Pa per solid fraction], no ghosts;
                             // see bed_surface.hpp, 0 with bed_surface = "whole-cells"
+  Field free_side;          // +1, -1: grains at rest fill a part of the cell, and its upper, lower face is
+                            // free; else 0 [-]
 
   explicit Rheology(const Grid& grid)
       : restitution(grid),
@@ -24,6 +26,7 @@ struct Rheology {
         arrest_friction(grid),
         agitated_drag(grid),
         resting(grid),
+        free_side(grid),
         support_(grid) {}
 
   // All but the kinetic viscosity, with ghosts filled but for `resting`, from f_s, Theta, alpha, P_s and

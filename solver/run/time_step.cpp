@@ -155,6 +155,7 @@ void TimeStep::predict(const State& now, double dt) {
     }
     viscosity_.add_acceleration(now.u_c, inertia_, d, fluid, predicted_c_[d]);
     convective_acceleration(grid_, now.u_s, d, solid, limited, predicted_s_[d]);
+    bound_convection(grid_, now.u_s, d, solid, dt, inertia_.f_s[d], solid_that_counts, predicted_s_[d]);
     const double *open = aperture_[d].data(), *f = inertia_.f_s[d].data(), *m = inertia_.fluid[d].data();
     const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
     double *c_star = predicted_c_[d].data(), *s_star = predicted_s_[d].data();

@@ -11,7 +11,8 @@ namespace granvof::case_file {
 
 const std::vector<PresetEntry>& presets() {
   static const std::vector<PresetEntry> list{
-      {Preset::advised, "advised", "For use: the paper's model, and what a bed at rest needs to stay there."},
+      {Preset::advised, "advised",
+       "For use: the paper's model, what a bed at rest needs to stay there, and what grains in air lose."},
       {Preset::paper, "paper", "The paper's model and schemes, nothing beside them."},
       {Preset::sourced, "sourced",
        "All choices that the grains of DEM-VOF, or the literature, give a reason for under water; nothing "
@@ -23,7 +24,6 @@ const std::vector<PresetEntry>& presets() {
 const std::vector<Choice>& choices() {
   static const std::vector<Choice> list{
       {.key = "numerics.solid_flux",
-       .advised = "compressive",
        .sourced = "compressive",
        .reason =
            "Second order, bounded; the steepest flux of f_s (superbee, Roe 1985) keeps the bed's surface "
@@ -54,6 +54,7 @@ const std::vector<Choice>& choices() {
                  "Tenneti et "
                  "al. 2011). DEM-VOF takes the same law, and its records are of the paper's."},
       {.key = "model.frictional_restitution",
+       .advised = true,
        .reason =
            "Friction takes from collisions too (Chialvo and Sundaresan 2013): for grains in air; under water "
            "collisions are damped, and it does nothing."},

@@ -1,0 +1,188 @@
+// The viscosity of enduring contacts and of collisions on cells and edges: friction.hpp's law, (16) and (17).
+#include <algorithm>
+#include <cmath>
+
+#include "solver/closures/agitation_drag.hpp"
+#include "solver/closures/contact_friction.hpp"
+#include "solver/operators/friction.hpp"
+
+namespace granvof {
+namespace {
+
+constexpr double slowest_sliding =
+    1e-7;  // of the scene's velocity: below it a Coulomb wall holds like a viscous one
+
+// What friction depends on, in a cell or summed over the cells in contact around an edge.
+struct Contacts {
+  int count = 0;
+  double pressure = 0.0;        // P_s^E [Pa]
+  double dilatancy = 0.0;       // tan(psi) [-]
+  double least = 0.0;           // coefficient of a layer that stops [-]
+  double drag = 0.0;            // beta on the agitation [kg/m3 s]
+  double normal_squared = 0.0;  // S:S of what is averaged over cells [1/s2]
+};
+
+}  // namespace
+
+// Grains in a part of a cell rest on what lies below and rub along it; above they are free. What falls on
+// them, or hangs over the edge of their cell, moves that free face at a speed that is none of theirs: taken
+// for strain of the bed it outruns all creep, (17) yields to it, and the surface runs down the slope for
+// ever. So neither their normal strain nor the tilt of an edge by a free face shears the grains, and no
+// stress of such an edge acts on the face.
+void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain) {
+  const double* side = rheology.free_side.data();
+  const std::ptrdiff_t up = grid_.stride(vertical);
+  const auto free_face = [=](std::ptrdiff_t c) { return side[c - up] > 0.0 || side[c] < 0.0; };
+  double *normal = strain_.normal_squared.data(), *all = strain_.squared.data();
+  for (int h = 0; h < grid_.dim; h += 2) {
+    const int d = std::min(h, vertical), e = std::max(h, vertical), plane = plane_index(d, e);
+    const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e), along = grid_.stride(h);
+    const double inv_h = 1.0 / grid_.h[vertical];
+    const double* u = u_strain[h].data();
+    double *share = tilting_[plane].data(), *g = strain_.shear[plane].data(),
+           *squared = strain_.plane_squared[plane].data();
+    for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
+      share[c] = free_face(c) || free_face(c - along) ? 0.0 : 1.0;
+      if (share[c] == 0.0) g[c] = (u[c] - u[c - up]) * inv_h;
+    });
+    for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
+      const double before = squared[c];
+      squared[c] =
+          0.125 * (g[c] * g[c] + g[c + s] * g[c + s] + g[c + t] * g[c + t] + g[c + s + t] * g[c + s + t]);
+      all[c] = std::fmax(all[c] + squared[c] - before, 0.0);
+    });
+  }
+  const double* v = u_strain[vertical].data();
+  const double inv_h = 1.0 / grid_.h[vertical];
+  for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
+    const double fall = (v[c + up] - v[c]) * inv_h;
+    if (side[c] != 0.0) normal[c] = std::fmax(normal[c] - fall * fall, 0.0);
+  });
+}
+
+void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain) {
+  strain_.update(grid_, u_strain, box_);
+  if (scene_.numerics.bed_surface == BedSurface::part_cells) free_faces_of_part_cells(rheology, u_strain);
+  boundary_.fill_scalar(strain_.normal_squared);
+  const double eta = scene_.model.contact_friction ? scene_.solid.friction : 0.0;
+  const double n = scene_.contact.regularisation;
+  const bool inertial = scene_.model.contact_friction && scene_.model.friction_law == FrictionLaw::inertial;
+  const double mu_2 = scene_.contact.fast_friction, i_0 = scene_.contact.inertial_number;
+  const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
+  const auto viscosity_at = [=](const Contacts& sum, double norm) {
+    const double share = 1.0 / sum.count, pressure = share * sum.pressure;
+    const double law =
+        inertial ? closures::inertial_friction(pressure, norm, eta, mu_2, i_0, rho_s, d_s) : eta;
+    double coefficient = std::fmax(std::fmax(law, share * sum.least) + share * sum.dilatancy, 0.0);
+    if (sum.drag > 0.0)
+      coefficient += closures::agitation_friction(share * sum.drag, pressure, norm, rho_s, d_s);
+    return closures::friction_viscosity(pressure, coefficient, n, norm);
+  };
+  const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),
+               *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data(),
+               *beta = rheology.agitated_drag.data();
+  const double* sq = strain_.squared.data();
+  double *mu = mu_.data(), *lambda = lambda_.data();
+  for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
+    lambda[c] = kinetic[c];
+    mu[c] = kinetic[c];
+    if (p[c] > 0.0) mu[c] += viscosity_at({1, p[c], psi[c], stop[c], beta[c], 0.0}, std::sqrt(0.5 * sq[c]));
+  });
+  boundary_.fill_scalar(mu_);
+  boundary_.fill_scalar(lambda_);
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const int plane = plane_index(d, e);
+      std::array<const double*, 3> rest{strain_.normal_squared.data(), nullptr, nullptr};
+      int parts = 1;
+      for (int q = 0; q < 3 && grid_.dim == 3; ++q) {
+        if (q == plane) continue;
+        boundary_.fill_scalar(strain_.plane_squared[q]);
+        rest[parts++] = strain_.plane_squared[q].data();
+      }
+      const double* g = strain_.shear[plane].data();
+      double* edge = mu_edge_[plane].data();
+      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
+        const std::array<std::ptrdiff_t, 4> around{c, c - s, c - t, c - s - t};
+        // Only cells in contact count: an average over empty cells would let the bed's surface slide.
+        Contacts sum;
+        double viscosity = 0.0;
+        for (const std::ptrdiff_t a : around) {
+          viscosity += 0.25 * kinetic[a];
+          if (p[a] <= 0.0) continue;
+          ++sum.count;
+          sum.pressure += p[a];
+          sum.dilatancy += psi[a];
+          sum.least += stop[a];
+          sum.drag += beta[a];
+          for (int q = 0; q < parts; ++q) sum.normal_squared += rest[q][a];
+        }
+        if (sum.count > 0)
+          viscosity +=
+              viscosity_at(sum, std::sqrt(0.5 * (sum.normal_squared / sum.count + 0.5 * g[c] * g[c])));
+        edge[c] = viscosity;
+      });
+    }
+  }
+  set_wall_friction(rheology, u_strain);
+}
+
+// Edges on closed sides: none for slip, at most mu_w P_s^E for Coulomb (through a viscosity of the old
+// speed), and the bed's own for no-slip. The operator takes the wall's shear as 2 u_t / h.
+void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_strain) {
+  const double* p = rheology.enduring_pressure.data();
+  const double slowest = slowest_sliding * velocity_;
+  for (int d = 0; d < grid_.dim; ++d) {
+    if (grid_.cells.periodic[d]) continue;
+    for (int upper = 0; upper < 2; ++upper) {
+      const Side& side = boundary_.side(d, upper);
+      const bool no_slip = side.kind == SideKind::wall && side.solid.kind == WallKind::no_slip;
+      if (no_slip) continue;
+      const bool coulomb = side.kind == SideKind::wall && side.solid.kind == WallKind::coulomb;
+      const double mu_w = coulomb ? side.solid.friction : 0.0;
+      for (int e = 0; e < grid_.dim; ++e) {
+        if (e == d) continue;
+        Range wall = grid_.edges(d, e);
+        wall.lower[d] = upper ? grid_.cells.n[d] : 0;
+        wall.upper[d] = wall.lower[d] + 1;
+        wall = common(wall, Grid::edges(box_, d, e));
+        const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, t = grid_.stride(e);
+        const double h = grid_.h[d], u_wall = side.velocity[e];
+        const int g =
+            3 - d - e;  // in 3D the other tangential direction: the wall limits the vector, not a component
+        const bool three = grid_.dim == 3;
+        const double w_wall = three ? side.velocity[g] : 0.0;
+        const std::ptrdiff_t r = three ? grid_.stride(g) : 0;
+        const double *v = u_strain[e].data(), *w = three ? u_strain[g].data() : v;
+        double* edge = mu_edge_[plane_index(d, e)].data();
+        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
+          const double pressure = 0.25 * (p[c] + p[c - s] + p[c - t] + p[c - s - t]);
+          const std::ptrdiff_t i = c + inside;
+          const double along = v[i] - u_wall;
+          const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
+          const double speed = std::sqrt(along * along + across * across);
+          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, slowest));
+        });
+      }
+    }
+  }
+}
+
+// A face without grains carries the fluid's velocity: a contact stress on its edges would glue the bed's
+// surface to the water above.
+void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const double *fd = inertia.f_s[d].data(), *fe = inertia.f_s[e].data();
+      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+      double* edge = mu_edge_[plane_index(d, e)].data();
+      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
+        const double least = std::fmin(std::fmin(fd[c], fd[c - t]), std::fmin(fe[c], fe[c - s]));
+        edge[c] = least >= least_solid_fraction ? edge[c] : 0.0;
+      });
+    }
+  }
+}
+
+}  // namespace granvof
