@@ -219,7 +219,8 @@ CaseText read(toml::table table, const std::string& label, const std::filesystem
     try {
       Merge(text, "--set", false, layer).table(parse_override(override_text), "");
     } catch (const CaseError& error) {
-      faults += (faults.empty() ? "" : "\n") + std::string(error.what());
+      if (!faults.empty()) faults += '\n';
+      faults += error.what();
     }
   }
   if (!faults.empty()) throw CaseError(faults);

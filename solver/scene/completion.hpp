@@ -19,8 +19,8 @@ struct Refusal {
 
 class Completion {
  public:
-  Completion(Draft& draft, const CaseText& text, Faults& faults)
-      : d(draft), text(text), s(draft.scene), faults_(faults) {}
+  Completion(Draft& draft, const CaseText& read, Faults& faults)
+      : d(draft), text(read), s(draft.scene), faults_(faults) {}
 
   // Applies a rule that reads these keys (a table stands for all of its own), unless one of them is at fault
   // already: what it would say is then not known. Its refusal is added to the faults and ends it.
