@@ -145,6 +145,8 @@ constexpr double longest_step = 0.2;
 
 // --- the table -------------------------------------------------------------------------------------------
 
+constexpr Usual of_grains{1e-5, 0.1};  // their diameter [m]
+
 std::vector<Row> tank_rows() {
   const auto largest = [](const Scene& s) -> Number {
     return *std::max_element(s.tank.begin(), s.tank.begin() + s.dimensions);
@@ -168,7 +170,11 @@ std::vector<Row> tank_rows() {
 std::vector<Row> grid_rows() {
   return {
       row(
-          "grid.dx", "m", [](const Scene& s) { return if_bed(s, smallest_cell(s)); },
+          "grid.dx", "m",
+          [](const Scene& s) {  // a diameter that is no grain's says nothing about the cells
+            const bool grains = s.solid.diameter >= of_grains.lower && s.solid.diameter <= of_grains.upper;
+            return grains ? if_bed(s, smallest_cell(s)) : std::nullopt;
+          },
           [](const Scene& s) {
             return Usual{0.25 * s.solid.diameter, 1e3 * s.solid.diameter};
           },
@@ -225,7 +231,7 @@ std::vector<Row> solid_rows() {
           "solid.density", "kg/m3", [](const Scene& s) { return if_bed(s, s.solid.density); },
           Usual{10.0, 23000.0}, "from foamed polystyrene to osmium; glass has 2500; g/cm3?"),
       row(
-          "solid.diameter", "m", [](const Scene& s) { return if_bed(s, s.solid.diameter); }, Usual{1e-5, 0.1},
+          "solid.diameter", "m", [](const Scene& s) { return if_bed(s, s.solid.diameter); }, of_grains,
           "from silt to cobbles; finer grains stick; millimetres, or micrometres?"),
       row(
           "solid.diameter", "m", [](const Scene& s) { return if_bed(s, s.solid.diameter); },
