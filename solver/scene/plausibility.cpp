@@ -2,98 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
-#include <optional>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "solver/closures/elastic_energy.hpp"
+#include "solver/scene/plausibility_rows.hpp"
 #include "solver/scene/side_names.hpp"
 #include "solver/scene/time_scale.hpp"
 
 namespace granvof {
+namespace plausible {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double steepest = 1.5;  // tan of 56 degrees: no dry grains rest on a steeper slope [-]
-
-using Number = std::optional<double>;  // none: the scene has no such thing, or 0 switches it off
-struct Usual {
-  double lower = 0.0, upper = infinity;
-};
-struct Row {
-  std::string key;
-  std::function<std::optional<Implausible>(const Scene&)> look;
-};
-
-std::string with_unit(const std::string& number, const std::string& unit) {
-  return unit.empty() ? number : number + ' ' + unit;
-}
-
-std::string text_of(const Usual& usual, const std::string& unit) {
-  std::string text = fmt::format("{:.3g} to {:.3g}", usual.lower, usual.upper);
-  if (usual.upper == infinity) text = fmt::format("at least {:.3g}", usual.lower);
-  if (usual.lower == 0.0) text = fmt::format("at most {:.3g}", usual.upper);
-  return with_unit(text, unit);
-}
-
-// A value against a range, either of which the scene may decide.
-template <class Value, class Range, class Reason>
-Row row(const std::string& key, const std::string& unit, Value value, Range range, Reason reason) {
-  return {key, [=](const Scene& scene) -> std::optional<Implausible> {
-            const Number x = value(scene);
-            if (!x) return std::nullopt;
-            Usual usual;
-            if constexpr (std::is_same_v<Range, Usual>) {
-              usual = range;
-            } else {
-              usual = range(scene);
-            }
-            if (*x >= usual.lower && *x <= usual.upper) return std::nullopt;
-            std::string why;
-            if constexpr (std::is_invocable_v<Reason, const Scene&>) {
-              why = reason(scene);
-            } else {
-              why = reason;
-            }
-            return Implausible{key, with_unit(fmt::format("{:.9g}", *x), unit), text_of(usual, unit), why};
-          }};
-}
-
-// A parameter of a choice that is not made: at its default nobody asked for it.
-template <class Value, class Used>
-Row idle(const std::string& key, Value value, Used used, const std::string& without) {
-  return {key, [=](const Scene& scene) -> std::optional<Implausible> {
-            if (used(scene) || value(scene.contact) == value(Contact{})) return std::nullopt;
-            return Implausible{key, fmt::format("{}", value(scene.contact)), "its default",
-                               "it has no effect without " + without};
-          }};
-}
-
-// --- what the scene's parts give -----------------------------------------------------------------------
-
-Number positive(double x) {
-  return x > 0.0 ? Number(x) : std::nullopt;
-}
-Number if_bed(const Scene& s, double x) {
-  return s.bed ? Number(x) : std::nullopt;
-}
-Number if_liquid(const Scene& s, double x) {
-  return s.liquid_boxes.empty() ? std::nullopt : Number(x);
-}
-Number if_gate(const Scene& s, double x) {
-  return s.gate ? Number(x) : std::nullopt;
-}
-double extent(const Box& box, int axis) {
-  return box.upper[axis] - box.lower[axis];
-}
-double bed_height(const Scene& s) {
-  return s.bed ? extent(s.bed->box, 1) : infinity;
-}
 double smallest_cell(const Scene& s) {
   return *std::min_element(s.grid.spacing.begin(), s.grid.spacing.begin() + s.dimensions);
 }
@@ -122,12 +44,6 @@ Usual fractions_that_rest(const Scene& s) {
     (springs(s, middle) > largest_spring ? springs_up : rests) = middle;
   }
   return {0.0, rests};
-}
-
-// Stiffness that bears the bed's weight within half of the packings at which grains touch [Pa], by (13).
-double bearing_stiffness(const Scene& s) {
-  const double half = 0.5 * (s.contact.solid_fraction_max - s.contact.solid_fraction_min);
-  return s.solid.density * s.gravity * bed_height(s) / std::pow(half, s.contact.exponent);
 }
 
 double off_the_bed(const Scene& s) {
@@ -261,76 +177,6 @@ std::vector<Row> solid_rows() {
   };
 }
 
-std::vector<Row> contact_rows() {
-  const auto of_bed = [](auto member) {
-    return [member](const Scene& s) { return if_bed(s, member(s.contact)); };
-  };
-  const auto model = [](auto member) { return [member](const Scene& s) { return member(s.model); }; };
-  const auto shear = model([](const Model& m) { return m.shear_dilatancy; });
-  const auto arrest = model([](const Model& m) { return m.thin_layer_arrest; });
-  const auto inertial = model([](const Model& m) { return m.friction_law == FrictionLaw::inertial; });
-  const auto either = [=](const Scene& s) { return arrest(s) || inertial(s); };
-  const auto dilatancy = model([](const Model& m) { return m.dilatancy_pressure; });
-  const auto friction = model([](const Model& m) { return m.contact_friction; });
-  return {
-      row(
-          "contact.stiffness", "Pa", of_bed([](const Contact& c) { return c.stiffness; }),
-          [](const Scene& s) {
-            return Usual{bearing_stiffness(s), 1e12};
-          },
-          "from what bears the bed's weight without closing half of the gap between "
-          "contact.solid_fraction_min and _max, to more than any grain's elasticity"),
-      row("contact.exponent", "", of_bed([](const Contact& c) { return c.exponent; }), Usual{1.0, 3.0},
-          "spheres in contact have 1.5 (Hertz)"),
-      row("contact.solid_fraction_min", "", of_bed([](const Contact& c) { return c.solid_fraction_min; }),
-          Usual{0.5, 0.65}, "random loose packing; spheres have 0.55 to 0.58"),
-      row("contact.solid_fraction_max", "", of_bed([](const Contact& c) { return c.solid_fraction_max; }),
-          Usual{0.55, 0.74}, "spheres reach 0.64 at random and 0.74 in a crystal"),
-      row(
-          "contact.regularisation", "s",
-          [](const Scene& s) {
-            return s.bed && s.gravity > 0.0 ? Number(s.contact.regularisation) : std::nullopt;
-          },
-          [](const Scene& s) {
-            return Usual{1e3 * fall_time(s), infinity};
-          },
-          "grains at rest creep within the time in which the scene changes"),
-      row("contact.fast_friction", "", of_bed([](const Contact& c) { return c.fast_friction; }),
-          Usual{0.05, steepest}, "the tangent of an angle; degrees?"),
-      row("contact.inertial_number", "", of_bed([](const Contact& c) { return c.inertial_number; }),
-          Usual{0.01, 2.0}, "glass beads have 0.28"),
-      row("contact.stop_length", "", of_bed([](const Contact& c) { return c.stop_length; }), Usual{0.3, 20.0},
-          "in grain diameters; glass beads have 1.65"),
-      idle(
-          "contact.critical_solid_fraction", [](const Contact& c) { return c.critical_solid_fraction; },
-          shear, "model.shear_dilatancy"),
-      idle(
-          "contact.dilatancy_slope", [](const Contact& c) { return c.dilatancy_slope; }, shear,
-          "model.shear_dilatancy"),
-      idle(
-          "contact.stop_length", [](const Contact& c) { return c.stop_length; }, arrest,
-          "model.thin_layer_arrest"),
-      idle(
-          "contact.fast_friction", [](const Contact& c) { return c.fast_friction; }, either,
-          "model.friction_law = \"inertial\" or model.thin_layer_arrest"),
-      idle(
-          "contact.inertial_number", [](const Contact& c) { return c.inertial_number; }, inertial,
-          "model.friction_law = \"inertial\""),
-      idle(
-          "contact.dilatancy_factor", [](const Contact& c) { return c.dilatancy_factor; }, dilatancy,
-          "model.dilatancy_pressure"),
-      idle(
-          "contact.dilatancy_exponent", [](const Contact& c) { return c.dilatancy_exponent; }, dilatancy,
-          "model.dilatancy_pressure"),
-      idle(
-          "contact.dense_solid_fraction", [](const Contact& c) { return c.dense_solid_fraction; }, dilatancy,
-          "model.dilatancy_pressure"),
-      idle(
-          "contact.regularisation", [](const Contact& c) { return c.regularisation; }, friction,
-          "model.contact_friction"),
-  };
-}
-
 std::vector<Row> bed_rows() {
   return {
       row(
@@ -431,10 +277,11 @@ std::vector<Row> all_rows() {
 }
 
 }  // namespace
+}  // namespace plausible
 
 std::vector<Implausible> plausibility(const Scene& scene) {
   std::vector<Implausible> found;
-  for (const Row& r : all_rows()) {
+  for (const plausible::Row& r : plausible::all_rows()) {
     const bool named = std::ranges::any_of(found, [&](const Implausible& i) { return i.key == r.key; });
     if (named) continue;
     if (auto finding = r.look(scene)) found.push_back(std::move(*finding));
