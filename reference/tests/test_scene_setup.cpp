@@ -66,6 +66,18 @@ TEST(SceneSetup, BeadsLargerThanTheCellsAreRefused) {
   EXPECT_NE(why.find("beads of 0.00256 m are larger than the fluid's cells"), std::string::npos) << why;
 }
 
+TEST(SceneSetup, ABedThatCannotBePackedIsRefused) {
+  EXPECT_EQ(refusal({"reference.packing=0.64"}), "");
+  const std::string why = refusal({"reference.packing=0.99"});
+  EXPECT_NE(why.find("reference.packing is 0.99, a bed that cannot be packed"), std::string::npos) << why;
+}
+
+TEST(SceneSetup, MoreBeadsThanCanBeComputedAreRefused) {
+  const std::string why = refusal({"solid.diameter=1e-9"});
+  EXPECT_NE(why.find("beads of 1e-09 m"), std::string::npos) << why;
+  EXPECT_NE(why.find("at most 1e+07 beads"), std::string::npos) << why;
+}
+
 TEST(SceneSetup, WithoutLiquidNoCellHasAny) {
   const granvof::Scene scene = small({"liquid=false"});
   EXPECT_EQ(refusal({"liquid=false"}), "");

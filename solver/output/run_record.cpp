@@ -11,6 +11,7 @@
 #include "solver/output/build_info.hpp"
 #include "solver/output/host_facts.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/scene/plausibility.hpp"
 
 namespace granvof {
 
@@ -87,6 +88,11 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
                                 {"value", w.value},
                                 {"limit", w.limit},
                                 {"meaning", w.meaning}});
+  }
+  json["plausibility"] = ordered_json::array();
+  for (const Implausible& i : plausibility(scene)) {
+    json["plausibility"].push_back(
+        {{"key", i.key}, {"given", i.given}, {"usual", i.usual}, {"reason", i.reason}});
   }
   json["exit"] = {
       {"state", exit_state_name(exit.state)}, {"reason", exit.reason}, {"time", progress.simulated_time}};

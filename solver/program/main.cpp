@@ -13,6 +13,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/plausibility.hpp"
 #include "solver/scene/restate.hpp"
 
 namespace {
@@ -46,8 +47,15 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
+granvof::Scene load(const Arguments& arguments) {
+  granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  for (const granvof::Implausible& finding : granvof::plausibility(scene))
+    fmt::print(stderr, "{}: warning: {}\n", scene.name, granvof::text_of(finding));
+  return scene;
+}
+
 int run(Arguments& arguments) {
-  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  const granvof::Scene scene = load(arguments);
   granvof::RunOptions& options = arguments.run;
   if (options.out.empty()) options.out = std::filesystem::path("out") / "runs" / scene.name;
   options.progress = isatty(STDERR_FILENO) != 0;
@@ -55,7 +63,7 @@ int run(Arguments& arguments) {
 }
 
 int check(const Arguments& arguments) {
-  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  const granvof::Scene scene = load(arguments);
   const auto& cells = scene.grid.cells;
   fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n\n{}", scene.name, cells[0], cells[1], cells[2],
              scene.times.end, scene.hash, scene.resolved);
@@ -63,7 +71,7 @@ int check(const Arguments& arguments) {
 }
 
 int restate(const Arguments& arguments) {
-  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  const granvof::Scene scene = load(arguments);
   const granvof::UnitFactors& f = arguments.factors;
   fmt::print("# {}: mass x {}, length x {}, time x {}\n\n{}", scene.name, f.mass, f.length, f.time,
              granvof::restated_case(scene, f));
@@ -96,7 +104,9 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& run_command = *app.add_subcommand("run", "Run a case and write its results");
   add_case(run_command, arguments);
   std::string out;
-  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")->type_name("DIR");
+  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")
+      ->type_name("DIR")
+      ->check([](const std::string& dir) { return dir.empty() ? "got \"\", allowed: a directory" : ""; });
   run_command.add_option("--threads", arguments.run.threads, "Threads")
       ->capture_default_str()
       ->check(CLI::Range(1, most_threads))

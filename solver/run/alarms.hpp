@@ -19,7 +19,7 @@ inline constexpr double least_turnover = 1e-9;
 double energy_turnover(const EnergyTerms& start, const EnergyTerms& now);
 
 struct StepCounts {
-  std::int64_t steps = 0, unconverged_friction = 0;
+  std::int64_t steps = 0, unconverged_friction = 0, refused = 0;
 };
 
 class Alarms {

@@ -13,6 +13,7 @@
 #include "solver/output/run_writer.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/checkpoint_state.hpp"
+#include "solver/run/memory_demand.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/run/progress_line.hpp"
 #include "solver/run/snapshot.hpp"
@@ -134,7 +135,8 @@ bool Run::advance() {
   counters_.friction += last_.friction.iterations;
   counters_.unconverged_friction += last_.friction.converged ? 0 : 1;
   ++counters_.steps;
-  trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
+  trouble_ = alarms_.check(now_, monitors_,
+                           {counters_.steps, counters_.unconverged_friction, counters_.refused_steps});
   return trouble_.empty();
 }
 
@@ -235,6 +237,7 @@ int Run::loop() {
 }  // namespace
 
 int run_case(const Scene& scene, const RunOptions& options) {
+  check_memory(scene);
   omp_set_num_threads(std::max(1, options.threads));
   stop_requested = 0;
   std::signal(SIGINT, request_stop);

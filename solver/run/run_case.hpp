@@ -18,7 +18,7 @@ struct RunOptions {
 
 // Returns the exit code: 0 finished; 1 failed, or stopped by SIGINT/SIGTERM: the last good state is in the
 // checkpoint, and where and why is on stderr and in run.json. Throws OutputError for a directory that
-// cannot be used or resumed.
+// cannot be used or resumed, CaseError for a grid that does not fit into memory.
 int run_case(const Scene& scene, const RunOptions& options);
 
 }  // namespace granvof

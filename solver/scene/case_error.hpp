@@ -6,8 +6,8 @@
 
 namespace granvof {
 
-// what() is one line that names the place, the key, what was given and what is allowed, as in
-// "cases/s1.toml:12: solid.friction: got -0.4, allowed: a number >= 0".
+// what() has one line for each fault, in the order of the file; a line names the place, the key, what was
+// given and what is allowed, as in "cases/s1.toml:12:12: solid.friction: got -0.4, allowed: a number >= 0".
 class CaseError : public std::runtime_error {
  public:
   explicit CaseError(const std::string& message) : std::runtime_error(message) {}

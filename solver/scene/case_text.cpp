@@ -9,12 +9,17 @@
 #include <toml++/toml.h>
 
 #include "solver/scene/case_error.hpp"
+#include "solver/scene/keys.hpp"
+#include "solver/scene/printable.hpp"
 #include "solver/scene/toml_text.hpp"
 
 namespace granvof::case_file {
 namespace {
 
 constexpr int deepest_base = 8;
+constexpr std::uintmax_t largest_file = 1 << 20;  // [bytes]; the longest case that is shipped has 5e3
+constexpr std::size_t longest_value = 80;         // in a message
+constexpr std::size_t longest_description = 200;
 
 Value value_of(const toml::node& node) {
   if (const auto* b = node.as_boolean()) return b->get();
@@ -32,19 +37,31 @@ Value value_of(const toml::node& node) {
   return std::monostate{};
 }
 
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+bool is_bare_word(std::string_view text) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+  };
+  return !text.empty() && std::all_of(text.begin(), text.end(), plain);
+}
+
+// A part of a path, in quotes where it is no bare word: a quoted "a.b" is one name and no key.
+std::string name_text(std::string_view name) {
+  return is_bare_word(name) ? std::string(name) : toml_text(std::string(name));
 }
 
 // The value for a message: numbers as short as they read back, anything unusual as the library prints it.
 std::string shown(const toml::node& node, const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return toml_text(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return toml_text(*text);
-  if (const auto* list = std::get_if<std::vector<double>>(&value)) return toml_text(*list);
   std::ostringstream out;
-  node.visit([&](const auto& element) { out << element; });
-  return one_line(out.str());
+  if (const auto* number = std::get_if<double>(&value)) {
+    out << toml_text(*number);
+  } else if (const auto* text = std::get_if<std::string>(&value)) {
+    out << toml_text(*text);
+  } else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
+    out << toml_text(*list);
+  } else {
+    node.visit([&](const auto& element) { out << element; });
+  }
+  return printable(out.str(), longest_value);
 }
 
 // Merges one layer of text over what is there.
@@ -55,9 +72,10 @@ class Merge {
 
   void table(const toml::table& table, const std::string& prefix) {
     for (const auto& [key, node] : table) {
-      const std::string path =
-          prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
-      if (const auto* inner = node.as_table()) {
+      const std::string name = name_text(key.str());
+      const std::string path = prefix.empty() ? name : prefix + "." + name;
+      const auto* inner = node.as_table();
+      if (inner && (prefix.empty() || !inner->empty())) {
         if (prefix.empty()) text_.tables[path] = where(node);
         this->table(*inner, path);
       } else {
@@ -69,14 +87,19 @@ class Merge {
  private:
   void set(const std::string& path, const toml::node& node) {
     const Value value = value_of(node);
-    drop_below(path);
-    drop_above(path);
-    const bool top_level = path.find('.') == std::string::npos;
-    if (top_level && value == Value(false) && text_.tables.contains(path)) {
-      text_.tables.erase(path);
-      return;
+    const std::string top = path.substr(0, path.find('.'));
+    if (top == path) {
+      const Table* known = find_table(path);
+      if (value == Value(false) && known && known->optional && text_.tables.contains(path)) {
+        drop_below(path);
+        text_.tables.erase(path);
+        return;
+      }
+    } else {
+      drop_below(path);
+      text_.entries.erase(top);
+      text_.tables.try_emplace(top, where(node));
     }
-    if (!top_level) text_.tables.try_emplace(path.substr(0, path.find('.')), where(node));
     if (const auto before = text_.entries.find(path); before != text_.entries.end())
       text_.replaced.emplace_back(*before);
     text_.entries[path] = {value, shown(node, value), where(node), layer_};
@@ -86,15 +109,10 @@ class Merge {
     std::erase_if(text_.entries, [&](const auto& item) { return item.first.starts_with(path + "."); });
   }
 
-  void drop_above(std::string path) {
-    while (path.find('.') != std::string::npos) {
-      path.resize(path.rfind('.'));
-      text_.entries.erase(path);
-    }
-  }
-
-  std::string where(const toml::node& node) const {
-    return with_lines_ ? fmt::format("{}:{}", place_, node.source().begin.line) : place_;
+  Place where(const toml::node& node) const {
+    if (!with_lines_) return {.file = place_};
+    const toml::source_position at = node.source().begin;
+    return {place_, at.line, at.column};
   }
 
   CaseText& text_;
@@ -107,21 +125,31 @@ toml::table parse(std::string_view text, const std::string& label) {
   try {
     return toml::parse(text, label);
   } catch (const toml::parse_error& error) {
-    throw CaseError(
-        fmt::format("{}:{}: not TOML: {}", label, error.source().begin.line, error.description()));
+    const toml::source_position at = error.source().begin;
+    throw CaseError(fmt::format("{}: not TOML: {}", Place{label, at.line, at.column}.text(),
+                                printable(error.description(), longest_description)));
   }
 }
 
+// A pipe or a device would be waited for, or never end.
 std::string read_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw CaseError(fmt::format("{}: is a directory, allowed: a case file (TOML)", file.string()));
-  }
+  const auto refuse = [&](const std::string& why) {
+    throw CaseError(fmt::format("{}: {}, allowed: a case file (TOML)", Place{file.string()}.text(), why));
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) refuse("is a directory");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    refuse("is no regular file");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > largest_file) refuse(fmt::format("has {} bytes, more than {}", size, largest_file));
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw CaseError(fmt::format("{}: cannot be read, allowed: a case file (TOML)", file.string()));
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
+  if (error || !in) refuse("cannot be read");
+  std::string content(size, '\0');
+  in.read(content.data(), static_cast<std::streamsize>(size));
+  if (in.bad()) refuse("cannot be read");
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  return content;
 }
 
 // Merges a file's bases, outermost first, then the file itself; returns the next free layer.
@@ -129,19 +157,17 @@ int merge_layers(CaseText& text, toml::table table, const std::string& label,
                  const std::filesystem::path& directory, int depth) {
   int layer = 0;
   if (const toml::node* base = table.get("base")) {
-    const std::string place = fmt::format("{}:{}", label, base->source().begin.line);
-    if (!base->is_string()) {
-      throw CaseError(fmt::format("{}: base: got {}, allowed: a file name in quotes", place,
-                                  shown(*base, value_of(*base))));
-    }
-    if (depth == deepest_base) {
-      throw CaseError(fmt::format("{}: base: got {}, allowed: a chain of at most {} cases, without a circle",
-                                  place, shown(*base, value_of(*base)), deepest_base));
-    }
+    const toml::source_position at = base->source().begin;
+    const auto refuse = [&](const std::string& allowed) {
+      throw CaseError(fmt::format("{}: base: got {}, allowed: {}", Place{label, at.line, at.column}.text(),
+                                  shown(*base, value_of(*base)), allowed));
+    };
+    if (!base->is_string()) refuse("a file name in quotes");
+    if (depth == deepest_base)
+      refuse(fmt::format("a chain of at most {} cases, without a circle", deepest_base));
     const std::filesystem::path file = (directory / *base->value<std::string>()).lexically_normal();
     if (!std::filesystem::is_regular_file(file)) {
-      throw CaseError(fmt::format("{}: base: got {}, allowed: a case file; there is no {}", place,
-                                  shown(*base, value_of(*base)), file.string()));
+      refuse(fmt::format("a case file; there is no {}", printable(file.string(), longest_description)));
     }
     layer = merge_layers(text, parse(read_file(file), file.string()), file.string(), file.parent_path(),
                          depth + 1);
@@ -149,13 +175,6 @@ int merge_layers(CaseText& text, toml::table table, const std::string& label,
   }
   Merge(text, label, true, layer).table(table, "");
   return layer + 1;
-}
-
-bool is_bare_word(std::string_view text) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
-  };
-  return !text.empty() && std::all_of(text.begin(), text.end(), plain);
 }
 
 bool is_path(std::string_view text) {
@@ -176,18 +195,18 @@ toml::table parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
   if (equals == std::string::npos || !is_path(path)) {
-    throw CaseError(
-        fmt::format("--set: got {}, allowed: table.key=value, such as grid.dx=0.005", one_line(text)));
+    throw CaseError(fmt::format("--set: got {}, allowed: table.key=value, such as grid.dx=0.005",
+                                text.empty() ? "nothing" : printable(text, longest_value)));
   }
   const std::string value = text.substr(equals + 1);
   const bool single = value.find('\n') == std::string::npos;
   auto table = single ? try_parse(path + " = " + value) : std::nullopt;
   if (!table && is_bare_word(value)) table = try_parse(path + " = \"" + value + "\"");
   if (!table) {
-    throw CaseError(
-        fmt::format("--set: {}: got {}, allowed: a TOML value, such as 0.4, true, [1, 2], \"text\" or a "
-                    "bare word",
-                    path, value.empty() ? "nothing" : one_line(value)));
+    throw CaseError(fmt::format(
+        "--set: {}: got {}, allowed: a TOML value, such as 0.4, true, [1, 2], \"text\" or a "
+        "bare word",
+        printable(path, longest_value), value.empty() ? "nothing" : printable(value, longest_value)));
   }
   return std::move(*table);
 }
@@ -197,13 +216,30 @@ CaseText read(toml::table table, const std::string& label, const std::filesystem
   CaseText text;
   text.file = label;
   const int layer = merge_layers(text, std::move(table), label, directory, 0);
+  std::string faults;  // of all overrides: one error names them
   for (const std::string& override_text : overrides) {
-    Merge(text, "--set", false, layer).table(parse_override(override_text), "");
+    try {
+      Merge(text, "--set", false, layer).table(parse_override(override_text), "");
+    } catch (const CaseError& error) {
+      if (!faults.empty()) faults += '\n';
+      faults += error.what();
+    }
   }
+  if (!faults.empty()) throw CaseError(faults);
   return text;
 }
 
 }  // namespace
+
+std::string Place::text() const {
+  const std::string name = printable(file, longest_description);
+  return line > 0 ? fmt::format("{}:{}:{}", name, line, column) : name;
+}
+
+Place CaseText::place_of(const std::string& table) const {
+  const auto found = tables.find(table);
+  return found == tables.end() ? Place{.file = file} : found->second;
+}
 
 std::vector<Entry> CaseText::stated(const std::string& path) const {
   std::vector<Entry> all;

@@ -19,15 +19,21 @@ double as_number(const Value& value) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+bool beyond_doubles(const Value& value) {
+  const auto beyond = [](double x) { return std::isfinite(x) && !of_a_size(x); };
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  return list ? std::any_of(list->begin(), list->end(), beyond) : beyond(as_number(value));
+}
+
 bool read_value(double& to, const Value& from, const Range& range) {
   to = as_number(from);
   return range.holds(to);
 }
 
 bool read_value(int& to, const Value& from, const Range& range) {
-  const auto* i = std::get_if<std::int64_t>(&from);
-  if (!i || *i < std::numeric_limits<int>::min() || *i > std::numeric_limits<int>::max()) return false;
-  to = static_cast<int>(*i);
+  const double x = as_number(from);  // 2.0 is the integer 2
+  if (x != std::round(x) || std::fabs(x) > std::numeric_limits<int>::max()) return false;
+  to = static_cast<int>(x);
   return range.holds(to);
 }
 

@@ -15,12 +15,21 @@ namespace granvof::case_file {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// What is not zero has a size within these in any system of units; beyond them the product of a few
+// quantities of a scene would leave the range of doubles.
+inline constexpr double smallest_size = 1e-30, largest_size = 1e30;
+inline bool of_a_size(double x) {
+  return x == 0.0 || (std::fabs(x) >= smallest_size && std::fabs(x) <= largest_size);
+}
+// Whether a number, or one of a list, is finite but not of such a size.
+bool beyond_doubles(const Value& value);
+
 struct Range {
   double lower = -infinity, upper = infinity;
   bool lower_open = false, upper_open = false;
 
   bool holds(double x) const {
-    return std::isfinite(x) && (lower_open ? x > lower : x >= lower) && (upper_open ? x < upper : x <= upper);
+    return of_a_size(x) && (lower_open ? x > lower : x >= lower) && (upper_open ? x < upper : x <= upper);
   }
   std::string text() const;  // " >= 0", " in (0, 0.9]", or nothing
 };

@@ -61,11 +61,11 @@ std::vector<Key> side_keys(int side) {
               "right, bottom, top, front, back (the last two in 3D only), or all for the rest."),
           side == side_all ? "\"no-slip\"" : "walls.all"),
       otherwise(choice(name + ".fluid", fluid_words, input(MEMBER(fluid)), "Gas and liquid at this side."),
-                "\"no-slip\""),
+                "the side's word, else walls.all"),
       otherwise(
           choice(name + ".solid", solid_words, input(MEMBER(solid)),
                  "Grains at this side; \"coulomb\": tangential stress at most solid_friction times P_s."),
-          "\"no-slip\""),
+          "the side's word, else walls.all"),
       key(name + ".solid_friction", "-", not_negative, input(MEMBER(solid_friction)),
           "mu_w; with solid = \"coulomb\" only."),
       otherwise(
@@ -97,7 +97,8 @@ std::vector<Key> material_keys() {
 std::vector<Key> contact_keys() {
   return {
       key("contact.stiffness", "Pa", positive, MEMBER(scene.contact.stiffness), "K of (13)."),
-      key("contact.exponent", "-", positive, MEMBER(scene.contact.exponent), "chi of (13)."),
+      key("contact.exponent", "-", Range{.lower = 0.0, .upper = 10.0, .lower_open = true},
+          MEMBER(scene.contact.exponent), "chi of (13)."),
       key("contact.dilatancy_factor", "-", not_negative, MEMBER(scene.contact.dilatancy_factor),
           "a' of (15)."),
       key("contact.dilatancy_exponent", "-", positive, MEMBER(scene.contact.dilatancy_exponent),
@@ -270,7 +271,7 @@ std::vector<Key> numerics_keys() {
           "Largest volume error of a cell in one step, as a share of the cell."),
       key("numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),
           "Residual reduction of one linear solve inside Newton."),
-      key("numerics.newton_max", "-", Range{.lower = 1, .upper = 1000}, MEMBER(scene.numerics.newton_max),
+      key("numerics.newton_max", "-", Range{.lower = 4, .upper = 1000}, MEMBER(scene.numerics.newton_max),
           "Most Newton iterations of a step."),
   };
 }

@@ -58,6 +58,9 @@ const std::vector<Key>& keys();
 const Key* find_key(std::string_view name);
 const Table* find_table(std::string_view name);
 
+// scene.name is the name of a file and of a folder [bytes].
+inline constexpr std::size_t longest_scene_name = 100;
+
 // The known key nearest to an unknown one, by edit distance; empty where none is near.
 std::string nearest_key(std::string_view name);
 

@@ -6,13 +6,14 @@
 #include "solver/scene/complete.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/presets.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace granvof {
 namespace {
 
-Scene to_scene(const case_file::CaseText& text, case_file::Draft draft) {
+Scene to_scene(const case_file::CaseText& text, case_file::Draft draft, case_file::Faults& faults) {
   using case_file::Scope;
-  Scene scene = case_file::complete(draft, text);
+  Scene scene = case_file::complete(draft, text, faults);
   scene.file = text.file;
   scene.resolved = case_file::resolved_text(draft);
   scene.hash = case_file::hash_of(draft, {Scope::setup, Scope::model, Scope::reference});
@@ -24,17 +25,22 @@ Scene to_scene(const case_file::CaseText& text, case_file::Draft draft) {
 
 Scene load_scene(const std::filesystem::path& case_file, std::span<const std::string> overrides) {
   const auto text = case_file::read_case(case_file, overrides);
-  const auto draft = case_file::read_draft(text);
-  if (draft.scene.name != case_file.stem().string()) {
-    case_file::refuse(text, draft, "scene.name",
-                      fmt::format("\"{}\", the file's stem", case_file.stem().string()));
+  case_file::Faults faults;
+  const auto draft = case_file::read_draft(text, faults);
+  const std::string stem = case_file.stem().string();
+  if (draft.scene.name != stem && !faults.touch("scene.name")) {
+    faults.add(case_file::fault_of(
+        text, draft, "scene.name",
+        fmt::format("\"{}\", the file's stem", case_file::printable(stem, case_file::longest_scene_name))));
   }
-  return to_scene(text, draft);
+  return to_scene(text, draft, faults);
 }
 
 Scene parse_scene(std::string_view text, const std::string& label, std::span<const std::string> overrides) {
   const auto read = case_file::read_case_text(text, label, overrides);
-  return to_scene(read, case_file::read_draft(read));
+  case_file::Faults faults;
+  const auto draft = case_file::read_draft(read, faults);
+  return to_scene(read, draft, faults);
 }
 
 std::string keys_reference() {

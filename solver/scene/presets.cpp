@@ -137,7 +137,9 @@ bool gives_way_to_a_preset(const CaseText& text, const std::string& key) {
 }
 
 std::vector<ChoiceOfScene> choices_of(const Scene& scene) {
-  const Draft draft = read_draft(read_case_text(scene.resolved, scene.name, {}));
+  Faults faults;
+  const Draft draft = read_draft(read_case_text(scene.resolved, scene.name, {}), faults);
+  faults.throw_if_any();
   std::vector<ChoiceOfScene> all;
   for (const Choice& choice : choices()) {
     const Key& key = *find_key(choice.key);

@@ -1,14 +1,16 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include "solver/scene/case_error.hpp"
 #include "solver/scene/complete.hpp"
+#include "solver/scene/faults.hpp"
+#include "solver/scene/key_types.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/presets.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace granvof::case_file {
 namespace {
+
+constexpr std::size_t longest_name = 80;
 
 void append(std::string& list, const std::string& name) {
   list += (list.empty() ? "" : ", ") + name;
@@ -22,13 +24,14 @@ std::string keys_of(const std::string& table) {
   return names;
 }
 
-[[noreturn]] void refuse_unknown(const std::string& path, const Entry& entry) {
+Fault unknown(const std::string& path, const Entry& entry) {
   const std::string table = path.substr(0, path.find('.'));
+  const std::string name = printable(path, longest_name);
   const Table* known = find_table(table);
   if (known && table == path) {
-    throw CaseError(fmt::format("{}: {}: got {}, allowed: a table [{}]{}", entry.where, path, entry.shown,
-                                path,
-                                known->optional ? ", or false in a case that is based on one with it" : ""));
+    return {path, entry.where,
+            fmt::format("{}: got {}, allowed: a table [{}]{}", name, entry.shown, name,
+                        known->optional ? ", or false in a case that is based on one with it" : "")};
   }
   const std::string nearest = nearest_key(path);
   std::string help;
@@ -41,53 +44,56 @@ std::string keys_of(const std::string& table) {
     for (const Table& t : tables()) append(names, t.name);
     help = "allowed tables: " + names;
   }
-  throw CaseError(fmt::format("{}: {}: unknown key (got {}), {}", entry.where, path, entry.shown, help));
+  // What was meant is not looked at any further: it would be missed, or taken at its default.
+  return {nearest.empty() ? path : nearest, entry.where,
+          fmt::format("{}: unknown key (got {}), {}", name, entry.shown, help)};
+}
+
+// Each entry of an unknown table is a fault of its own.
+bool has_entries(const CaseText& text, const std::string& table) {
+  const auto next = text.entries.lower_bound(table + ".");
+  return next != text.entries.end() && next->first.starts_with(table + ".");
+}
+
+std::string allowed_of(const Key& key, const Value& value) {
+  if (!beyond_doubles(value)) return key.allowed;
+  return fmt::format("{}, of a size within [{:g}, {:g}]", key.allowed, smallest_size, largest_size);
 }
 
 }  // namespace
 
-void refuse(const CaseText& text, const Draft& draft, const std::string& name, const std::string& allowed) {
-  const auto entry = text.entries.find(name);
-  if (entry != text.entries.end()) {
-    throw CaseError(
-        fmt::format("{}: {}: got {}, allowed: {}", entry->second.where, name, entry->second.shown, allowed));
-  }
-  const Key* key = find_key(name);
-  const std::string value = key ? key->get(draft) : "";
-  const auto table = text.tables.find(name.substr(0, name.find('.')));
-  throw CaseError(fmt::format("{}: {}: got {}, allowed: {}",
-                              table == text.tables.end() ? text.file : table->second, name,
-                              value.empty() ? "nothing" : value + " (the default)", allowed));
-}
-
-Draft read_draft(const CaseText& text) {
-  for (const auto& [path, entry] : text.entries) {
-    if (!find_key(path)) refuse_unknown(path, entry);
-  }
+Draft read_draft(const CaseText& text, Faults& faults) {
   Draft draft;
   for (const auto& [name, where] : text.tables) {
-    if (!find_table(name)) refuse_unknown(name, {.value = {}, .shown = "a table", .where = where});
-    draft.tables.insert(name);
+    if (find_table(name)) {
+      draft.tables.insert(name);
+    } else if (!has_entries(text, name)) {
+      faults.add(unknown(name, {.value = {}, .shown = "a table", .where = where}));
+    }
   }
   for (const Table& table : tables()) {
     if (!table.optional) draft.tables.insert(table.name);
   }
   const auto take = [&](const std::string& path, const Entry& entry) {
-    const Key& key = *find_key(path);
-    if (!key.set(draft, entry.value)) refuse(text, draft, path, key.allowed);
+    const Key* key = find_key(path);
+    if (!key) {
+      faults.add(unknown(path, entry));
+    } else if (!key->set(draft, entry.value)) {
+      faults.add(fault_of(text, draft, path, allowed_of(*key, entry.value)));
+    }
   };
-  if (const auto preset = text.entries.find("model.preset"); preset != text.entries.end())
-    take(preset->first, preset->second);
+  // The preset comes first: single keys go on top of it.
+  const auto preset = text.entries.find("model.preset");
+  if (preset != text.entries.end()) take(preset->first, preset->second);
   apply_preset(draft);
-  for (const auto& [path, entry] : text.entries) {
-    if (!gives_way_to_a_preset(text, path)) take(path, entry);
+  for (auto entry = text.entries.begin(); entry != text.entries.end(); ++entry) {
+    if (entry != preset && !gives_way_to_a_preset(text, entry->first)) take(entry->first, entry->second);
   }
   for (const Key& key : keys()) {
     if (!key.required() || !draft.tables.contains(key.table()) || text.entries.contains(key.name)) continue;
-    const auto table = text.tables.find(key.table());
-    throw CaseError(fmt::format("{}: {}: got nothing, allowed: {} (the key is required)",
-                                table == text.tables.end() ? text.file : table->second, key.name,
-                                key.allowed));
+    if (!faults.touch(key.name)) {
+      faults.add(fault_of(text, draft, key.name, key.allowed + " (the key is required)"));
+    }
   }
   return draft;
 }

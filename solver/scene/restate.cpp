@@ -36,12 +36,15 @@ Value times(double factor, const Value& value) {
 
 std::string restated_case(const Scene& scene, const UnitFactors& factors) {
   case_file::CaseText text = case_file::read_case_text(scene.resolved, scene.file.string(), {});
-  const TimeUnit unit_of_times = case_file::read_draft(text).times.unit;
+  case_file::Faults faults;
+  const TimeUnit unit_of_times = case_file::read_draft(text, faults).times.unit;
   for (auto& [name, entry] : text.entries) {
     const Dimension dimension = dimension_of_key(*case_file::find_key(name), unit_of_times);
     if (!dimension.none()) entry.value = times(factors.of(dimension), entry.value);
   }
-  return case_file::resolved_text(case_file::read_draft(text));
+  const case_file::Draft draft = case_file::read_draft(text, faults);
+  faults.throw_if_any();  // a factor may lead beyond what a key takes
+  return case_file::resolved_text(draft);
 }
 
 }  // namespace granvof

@@ -111,6 +111,9 @@ int main(int argc, char** argv) {
   } catch (const granvof::CaseError& error) {
     fmt::print(stderr, "demvof: {}\n", error.what());
     return bad_input;
+  } catch (const granvof::OutputError& error) {  // a directory that cannot be used
+    fmt::print(stderr, "demvof: {}\n", error.what());
+    return bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "demvof: {}\n", error.what());
     return 1;

@@ -125,6 +125,17 @@ class Recording {
   double last_step_ = 0.0;
 };
 
+// The bed; where it cannot be prepared run.json says so.
+Column prepare(const Scene& scene, const RecordOptions& options, const std::vector<double>& floor,
+               granvof::RunWriter& writer) {
+  try {
+    return prepare_column(column_settings(scene, options.seed, floor, options.scratch.string()));
+  } catch (const std::exception& problem) {
+    writer.finish({}, {granvof::ExitState::failed, problem.what()});
+    throw;
+  }
+}
+
 }  // namespace
 
 int record_scene(const Scene& scene, const RecordOptions& options) {
@@ -139,7 +150,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
 
   line.say("preparing the column");
   const std::vector<double> floor = floor_beads(scene, options.seed);
-  const Column column = prepare_column(column_settings(scene, options.seed, floor, scratch));
+  const Column column = prepare(scene, options, floor, writer);
   const double preparation = core_seconds();
 
   const FluidSettings fluid = fluid_settings(scene, scratch);
@@ -223,8 +234,11 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
     writer.finish(progress, {granvof::ExitState::finished, ""});
     line.end();
     return 0;
-  } catch (const granvof::OutputError&) {
-    throw;
+  } catch (const granvof::OutputError& error) {
+    line.end();
+    fmt::print(stderr, "demvof: {} stopped at t = {:.6g} s, its output cannot be written: {}\n", scene.name,
+               now, error.what());
+    return 1;
   } catch (const std::exception& problem) {
     bring_up_to_date();
     const std::string reason = fmt::format("at t = {:.6g} s: {}", now, problem.what());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,10 @@ using granvof::WallKind;
 constexpr double loosest_pile = 0.55;  // below it a bed cannot be at rest: it is suspended [-]
 // In bead diameters; in a thinner slice a bead touches another and its image.
 constexpr double thinnest_slice = 2.0;
+
+constexpr double densest_pile = 0.66;  // spheres at random reach 0.64, a little more between walls [-]
+// Their contacts alone would take more than 10 GB, and their steps years.
+constexpr double most_beads = 1e7;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}", scene.file.string(), why));
@@ -63,6 +68,28 @@ double overlap(double from, double to, double lower, double upper) {
   return std::max(0.0, std::min(to, upper) - std::max(from, lower)) / (to - from);
 }
 
+// Beads of the bed, without the floor's.
+double bead_count(const Scene& scene) {
+  const granvof::Box& bed = scene.bed->box;
+  const double area = (bed.upper[0] - bed.lower[0]) * (bed.upper[1] - bed.lower[1]);
+  const double depth = flat(scene) ? depth_of(scene) : bed.upper[2] - bed.lower[2];
+  return scene.reference->packing * area * depth /
+         (std::numbers::pi / 6.0 * std::pow(bead_diameter(scene), 3));
+}
+
+void check_packing(const Scene& scene) {
+  if (scene.reference->packing > densest_pile) {
+    refuse(scene, fmt::format("reference.packing is {}, a bed that cannot be packed, allowed: <= {}",
+                              scene.reference->packing, densest_pile));
+  }
+  if (const double count = bead_count(scene); count > most_beads) {
+    refuse(scene,
+           fmt::format("{:.3g} beads of {:.6g} m (solid.diameter, reference.coarse_graining), allowed: "
+                       "at most {:g} beads",
+                       count, bead_diameter(scene), most_beads));
+  }
+}
+
 }  // namespace
 
 void check_beads(const Scene& scene) {
@@ -76,6 +103,7 @@ void check_scene(const Scene& scene) {
   check_beads(scene);
   if (!scene.bed) refuse(scene, "it has no [bed]");
   if (scene.bed->slope != 90.0) refuse(scene, fmt::format("bed.slope is {}, allowed: 90", scene.bed->slope));
+  check_packing(scene);
   const std::size_t sides = flat(scene) ? 4 : 6;
   for (std::size_t s = 0; s < sides; ++s) {
     if (scene.sides[s].kind == SideKind::periodic)

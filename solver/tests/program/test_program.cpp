@@ -21,9 +21,9 @@ struct Outcome {
 // A fresh working directory for each test.
 class Program : public ::testing::Test {
  protected:
-  Outcome granvof(const std::string& arguments) const {
-    const std::string command = "cd '" + directory_.string() + "' && '" GRANVOF_PROGRAM "' " + arguments +
-                                " >stdout.txt 2>stderr.txt </dev/null";
+  Outcome granvof(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + directory_.string() + "' && " + before + "'" GRANVOF_PROGRAM "' " +
+                                arguments + " >stdout.txt 2>stderr.txt </dev/null";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout.txt"), text("stderr.txt")};
     std::filesystem::remove(directory_ / "stdout.txt");
@@ -31,8 +31,9 @@ class Program : public ::testing::Test {
     return outcome;
   }
 
-  void expect_refused(const std::string& arguments, const std::string& part) const {
-    const Outcome outcome = granvof(arguments);
+  void expect_refused(const std::string& arguments, const std::string& part,
+                      const std::string& before = "") const {
+    const Outcome outcome = granvof(arguments, before);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
@@ -65,10 +66,10 @@ TEST_F(Program, PrintsVersionAndHelp) {
 }
 
 TEST_F(Program, ChecksACase) {
-  const Outcome outcome = granvof("check " + shipped("s1") + " --set grid.dx=0.005 --set time.end=2");
+  const Outcome outcome = granvof("check " + shipped("s1") + " --set grid.dx=0.00125 --set time.end=2");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(outcome.out.rfind("# s1: 80 x 24 x 1 cells", 0), 0U) << outcome.out;
+  EXPECT_EQ(outcome.out.rfind("# s1: 320 x 96 x 1 cells", 0), 0U) << outcome.out;
   EXPECT_NE(outcome.out.find("\nend = 2\n"), std::string::npos);
 }
 
@@ -110,6 +111,39 @@ TEST_F(Program, RefusesBadCasesAndWritesNothing) {
   expect_refused("run " + shipped("s1") + " --set solid.friction=-0.4",
                  "--set: solid.friction: got -0.4, allowed: a number >= 0");
   expect_refused("check no-such-case.toml", "no-such-case.toml");
+  expect_refused("check /dev/zero", "/dev/zero: is no regular file");
+  expect_refused("run " + shipped("s1") + " --out ''", "--out");
+}
+
+TEST_F(Program, NamesAllFaultsOnALineEach) {
+  const Outcome outcome =
+      granvof("run " + shipped("s1") + " --set solid.friction=-1 --set grid.dx=0.03 --set bed.colour=red");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 3) << outcome.err;
+}
+
+TEST_F(Program, RefusesAGridThatDoesNotFitIntoMemory) {
+  expect_refused("run " + shipped("sw") + " --set grid.dx=0.0005 --set solid.diameter=2e-4",
+                 "192000000 cells need 576 GB");
+  expect_refused("run " + shipped("s1") + " --set grid.dx=0.0003125 --set solid.diameter=2e-4",
+                 "need 1 GB and there are 0.512 GB", "ulimit -v 500000 && ");
+}
+
+TEST_F(Program, WarnsOfImplausibleValuesOnceEach) {
+  const std::string mistaken =
+      shipped("s1") + " --set solid.friction=21.8 --set solid.diameter=0.8 --set time.end=0.01";
+  for (const std::string command : {"check ", "run "}) {
+    const Outcome outcome = granvof(command + mistaken +
+                                    " --set output.series_interval=0.01 "
+                                    "--set 'output.field_times=[0]'");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* part : {"s1: warning: solid.friction = 21.8: usual is 0.05 to 1.5",
+                             "s1: warning: solid.diameter = 0.8 m: usual is 1e-05 to 0.1 m"}) {
+      const auto at = outcome.err.find(part);
+      ASSERT_NE(at, std::string::npos) << outcome.err;
+      EXPECT_EQ(outcome.err.find(part, at + 1), std::string::npos) << outcome.err;
+    }
+  }
 }
 
 }  // namespace

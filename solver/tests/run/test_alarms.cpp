@@ -220,5 +220,24 @@ TEST_F(AlarmRules, MoreEnergyInMotionThanWasEverGivenStops) {
   EXPECT_NE(stopped_.find("blow-up"), std::string::npos) << stopped_;
 }
 
+TEST_F(RunAlarms, StepsTriedInVainAreSeen) {
+  Scene scene = column_scene();
+  scene.numerics.newton_max = 1;  // fewer than a case may have
+  EXPECT_EQ(run_into(path("vain"), scene), 0);
+  const json record = json::parse(test::text_of(path("vain") / "run.json"));
+  EXPECT_TRUE(warned(record, "refused steps")) << record["refused_steps"] << " of " << record["steps"];
+}
+
+// What the case says is no monitor of the run: it has a list of its own.
+TEST_F(RunAlarms, ImplausibleValuesStandApart) {
+  const json record = record_of({"solid.friction=21.8", "time.end=0.005", "output.series_interval=0.005"});
+  ASSERT_EQ(record["plausibility"].size(), 1U) << record["plausibility"];
+  EXPECT_EQ(record["plausibility"][0]["key"], "solid.friction");
+  EXPECT_EQ(record["plausibility"][0]["given"], "21.8");
+  EXPECT_EQ(record["plausibility"][0]["usual"], "0.05 to 1.5");
+  EXPECT_EQ(record["warnings"], json::array());
+  EXPECT_EQ(record_of({"time.end=0.005", "output.series_interval=0.005"})["plausibility"], json::array());
+}
+
 }  // namespace
 }  // namespace granvof

@@ -1,5 +1,6 @@
 // Every class of bad input: one line that names place, key, what was given and what is allowed.
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ const std::vector<Refused> values{
     {"number_for_switch", {"model.drag=1"}, {"model.drag: got 1, allowed: true or false"}},
     {"fraction_for_integer",
      {"numerics.newton_max=2.5"},
-     {"numerics.newton_max: got 2.5", "an integer in [1, 1000]"}},
+     {"numerics.newton_max: got 2.5", "an integer in ["}},
     {"unknown_word", {"numerics.solid_flux=upwnd"}, {R"(got "upwnd", allowed: "upwind" | "limited")"}},
     {"cfl_zero", {"numerics.cfl=0"}, {"numerics.cfl: got 0, allowed: a number in (0, 0.9]"}},
     {"cfl_large", {"numerics.cfl=0.91"}, {"numerics.cfl: got 0.91, allowed: a number in (0, 0.9]"}},
@@ -53,6 +54,27 @@ const std::vector<Refused> values{
     {"size_without_bands", {"bed.colour_size=0.01"}, {"bed.colour_size: got 0.01", "only with bands"}},
     {"unknown_colour", {"bed.colour=stripes"}, {"got \"stripes\"", R"("layers" | "columns" | "checks")"}},
     {"mixed_list", {"tank.size=[0.4, \"high\"]"}, {"tank.size: got ", "list of numbers"}},
+    {"far_too_large",
+     {"solid.friction=1e300"},
+     {"got 1e+300", "a number >= 0, of a size within [1e-30, 1e+30]"}},
+    {"far_too_small", {"bed.length=1e-300"}, {"got 1e-300", "of a size within [1e-30, 1e+30]"}},
+    {"one_of_a_list",
+     {"tank.size=[0.4, 1e200]"},
+     {"tank.size: got [0.4, 1e+200]", "each > 0 [m], of a size"}},
+    {"exponent", {"contact.exponent=1e6"}, {"contact.exponent: got 1000000", "a number in (0, 10]"}},
+    {"few_iterations",
+     {"numerics.newton_max=1"},
+     {"numerics.newton_max: got 1, allowed: an integer in [4, 1000]"}},
+    {"two_dimensions_and_a_bit",
+     {"scene.dimensions=2.1"},
+     {"scene.dimensions: got 2.1", "an integer in [2, 3]"}},
+    {"name_up", {"scene.name=\"..\""}, {"scene.name: got \"..\"", "the name of a file"}},
+    {"name_here", {"scene.name=\".\""}, {"scene.name: got \".\"", "the name of a file"}},
+    {"name_elsewhere", {"scene.name=\"../s1\""}, {"scene.name: got \"../s1\"", "no \"/\""}},
+    {"name_of_two_lines", {"scene.name=\"a\\nb\""}, {"scene.name: got \"a\\u000Ab\""}},
+    {"name_too_long",
+     {"scene.name=" + std::string(101, 'a')},
+     {"scene.name: got \"aaa", "at most 100 bytes"}},
     {"date", {"time.end=2020-01-01"}, {"time.end: got 2020-01-01"}},
     {"seed_fraction", {"reference.seeds=[1.5]"}, {"reference.seeds: got [1.5]", "list of integers"}},
     {"no_seed", {"reference.seeds=[]"}, {"reference.seeds: got []", "at least one seed"}},
@@ -78,7 +100,9 @@ const std::vector<Refused> keys{
     {"far_key", {"solid.colour_of_the_beads=1"}, {"unknown key", "allowed in [solid]: density, diameter"}},
     {"far_table", {"weather.temperature_outside=3"}, {"unknown key", "allowed tables: scene, tank"}},
     {"value_for_table", {"solid=3"}, {"solid: got 3, allowed: a table [solid]"}},
-    {"required_table_dropped", {"gas=false"}, {"gas.density: got nothing", "the key is required"}},
+    {"required_table_dropped", {"gas=false"}, {"--set: gas: got false, allowed: a table [gas]"}},
+    {"walls_dropped", {"walls=false"}, {"--set: walls: got false, allowed: a table [walls]"}},
+    {"empty_part", {"walls.left={}"}, {"walls.left: got {", "\"no-slip\" | \"slip\""}},
     {"not_an_override", {"dx"}, {"--set: got dx, allowed: table.key=value"}},
     {"empty_override", {"grid.dx="}, {"--set: grid.dx: got nothing"}},
     {"bad_override_value", {"grid.dx=0.0.1"}, {"--set: grid.dx: got 0.0.1", "a TOML value"}},
@@ -111,7 +135,12 @@ const std::vector<Refused> geometry{
      {"contact.critical_solid_fraction: got 0.63"}},
     {"arrest_friction",
      {"model.thin_layer_arrest=true", "contact.fast_friction=0.3"},
-     {"contact.fast_friction: got 0.3", "at least solid.friction"}},
+     {"contact.fast_friction: got 0.3",
+      "at least solid.friction = 0.4, with friction_law = \"inertial\" or "
+      "thin_layer_arrest (model.preset = \"paper\")"}},
+    {"fast_friction_of_a_preset",
+     {"model.preset=sourced", "solid.friction=0.7"},
+     {"contact.fast_friction: got 0.643 (the default)", "(model.preset = \"sourced\")"}},
     {"contact_dense", {"contact.dense_solid_fraction=0.65"}, {"at most contact.solid_fraction_max = 0.63"}},
     {"level_above_tank",
      {"liquid.level=0.13"},
@@ -125,6 +154,14 @@ const std::vector<Refused> geometry{
      {"liquid=false", "bed.y=on-water"},
      {"bed.y: got \"on-water\"", "no liquid.level"}},
     {"gate_outside", {"gate.position=0.4"}, {"gate.position: got 0.4", "inside the tank"}},
+    {"gate_at_the_wall",
+     {"gate.position=0.001"},
+     {"gate.position: got 0.001", "a cell of 0.01 m on each side"}},
+    {"gate_through_the_bed",
+     {"gate.position=0.05"},
+     {"gate.position: got 0.05", "which stands from 0 to 0.1 m"}},
+    {"bed_of_nothing", {"bed.length=1e-15"}, {"bed.length: got 1e-15", "a bed inside the tank"}},
+    {"reference_cells", {"reference.cell=1e-6"}, {"reference.cell: got 1e-06", "at most 100000000"}},
     {"bed_without_solid", {"solid=false"}, {"bed: got [bed] without [solid]"}},
     {"gate_without_bed", {"bed=false", "reference=false", "time.unit=s"}, {"gate: got [gate] without [bed]"}},
     {"reference_without_bed",
@@ -144,6 +181,20 @@ const std::vector<Refused> walls{
     {"fluid_coulomb", {"walls.bottom.fluid=coulomb"}, {"walls.bottom.fluid: got \"coulomb\""}},
     {"front_in_2d", {"walls.front=slip"}, {"walls.front: got \"slip\"", "no such key in 2D"}},
     {"normal_velocity", {"walls.bottom.velocity=[0, 1]"}, {"walls.bottom.velocity", "normal component 0"}},
+    {"part_of_an_open_side",
+     {"walls.top.fluid=slip"},
+     {"walls.top.fluid: got \"slip\", allowed: nothing beside walls.top = \"open\"",
+      "needs both walls.top.fluid and walls.top.solid"}},
+    {"part_of_periodic_all",
+     {"walls.all=periodic", "tank.gravity=0", "time.unit=s", "walls.top=periodic", "walls.left.solid=slip"},
+     {"walls.left.solid: got \"slip\", allowed: nothing beside walls.all = \"periodic\""}},
+    {"velocity_of_an_open_side", {"walls.top.velocity=[1, 0]"}, {"walls.top.velocity", "nothing beside"}},
+    {"velocity_nobody_feels",
+     {"walls.all=slip", "walls.bottom.velocity=[1, 0]"},
+     {"walls.bottom.velocity: got [1, 0]", "only where a phase feels it"}},
+    {"periodic_along_gravity",
+     {"walls.top=periodic", "walls.bottom=periodic"},
+     {"walls.bottom: got \"periodic\"", "tank.gravity = 0"}},
     {"velocity_of_all", {"walls.all.velocity=[0, 0]"}, {"walls.all.velocity", "of one side"}},
 };
 const std::vector<Refused> times{
@@ -161,6 +212,8 @@ const std::vector<Refused> times{
     {"unit_without_bed",
      {"bed=false", "gate=false", "reference=false"},
      {"time.unit: got \"column\"", "needs a [bed]"}},
+    {"endless_hold", {"time.hold=1e20"}, {"time.hold: got 1e+20", "steps of numerics.dt_max"}},
+    {"endless", {"time.end=1e20"}, {"time.end: got 1e+20", "steps of numerics.dt_max"}},
     {"hold_without_gate", {"gate=false", "time.hold=0.1"}, {"time.hold: got 0.1", "no [gate]"}},
     {"gate_release_without_gate",
      {"gate=false", "reference.release=gate"},
@@ -184,19 +237,19 @@ std::string edited(const std::string& from, const std::string& to) {
 
 TEST(CaseErrors, NameTheLineOfAValue) {
   EXPECT_EQ(refusal_of(edited("friction = 0.4", "friction = -0.4")),
-            "small.toml:20: solid.friction: got -0.4, allowed: a number >= 0");
+            "small.toml:20:12: solid.friction: got -0.4, allowed: a number >= 0");
 }
 
 TEST(CaseErrors, NameTheLineOfAnUnknownKeyAndTable) {
   EXPECT_EQ(refusal_of(edited("friction = 0.4", "frction = 0.4")),
-            "small.toml:20: solid.frction: unknown key (got 0.4), did you mean solid.friction?");
-  EXPECT_EQ(refusal_of(edited("[gate]\nspeed = 1.0", "[gait]")).substr(0, 33),
-            "small.toml:25: gait: unknown key ");
+            "small.toml:20:11: solid.frction: unknown key (got 0.4), did you mean solid.friction?");
+  EXPECT_EQ(refusal_of(edited("[gate]\nspeed = 1.0", "[gait]")).substr(0, 35),
+            "small.toml:25:1: gait: unknown key ");
 }
 
 TEST(CaseErrors, NameTheTableThatLacksAKey) {
   const std::string message = refusal_of(edited("friction = 0.4\n", ""));
-  EXPECT_EQ(message.substr(0, 43), "small.toml:17: solid.friction: got nothing,") << message;
+  EXPECT_EQ(message.substr(0, 45), "small.toml:17:1: solid.friction: got nothing,") << message;
 }
 
 TEST(CaseErrors, NameTheFileThatLacksATable) {
@@ -205,9 +258,89 @@ TEST(CaseErrors, NameTheFileThatLacksATable) {
 }
 
 TEST(CaseErrors, NameTheLineOfASyntaxError) {
-  EXPECT_EQ(refusal_of(edited("level = 0.07", "level = = 0.07")).substr(0, 24), "small.toml:16: not TOML:");
-  EXPECT_EQ(refusal_of(edited("level = 0.07", "level = 0.07\nlevel = 0.08")).substr(0, 24),
-            "small.toml:17: not TOML:");
+  EXPECT_EQ(refusal_of(edited("level = 0.07", "level = = 0.07")).substr(0, 26), "small.toml:16:9: not TOML:");
+  EXPECT_EQ(refusal_of(edited("level = 0.07", "level = 0.07\nlevel = 0.08")).substr(0, 26),
+            "small.toml:17:9: not TOML:");
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(CaseErrors, NameAllFaultsInTheOrderOfTheText) {
+  std::string text = edited("dx = 0.01", "dx = 0.03");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("top = \"open\"", "left = \"open\"");
+  replace("level = 0.07", "level = 0.7");
+  replace("friction = 0.4", "frction = 0.4");
+  replace("solid_fraction = 0.57", "solid_fraction = 0.7");
+  replace("end = 10", "end = \"late\"");
+  replace("preset = \"paper\"", "preset = \"papers\"");
+  const std::vector<std::string> overrides{"numerics.dt_max=0.5", "numerics.dt_min=1"};
+  const auto lines = lines_of(refusal_of(text, overrides));
+  const std::vector<std::string> expected{
+      "--set: numerics.dt_min: got 1,",          "small.toml:7:6: grid.dx: got 0.03",
+      "small.toml:9:8: walls.left: got",         "small.toml:16:9: liquid.level: got 0.7",
+      "small.toml:20:11: solid.frction:",        "small.toml:24:18: bed.solid_fraction: got 0.7",
+      "small.toml:28:7: time.end: got \"late\"", "small.toml:36:10: model.preset: got \"papers\"",
+  };
+  ASSERT_EQ(lines.size(), expected.size()) << refusal_of(text, overrides);
+  for (std::size_t i = 0; i < lines.size(); ++i) EXPECT_TRUE(lines[i].starts_with(expected[i])) << lines[i];
+}
+
+TEST(CaseErrors, DoNotFollowFromOneAnother) {
+  // Whatever depends on the tank is left unsaid until the tank is known.
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"tank.size=[0.4, -1]"})).size(), 1U);
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"solid=3"})).size(), 1U);
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"gate=3"})).size(), 1U);
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"scene.dimensions=7"})).size(), 1U);
+  // What a preset decides is not known without it; nor is a longest step without the scene.
+  EXPECT_EQ(
+      lines_of(refusal_of(small_case, {"model.preset=no", "contact.critical_solid_fraction=0.5"})).size(),
+      1U);
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"tank.size=[0.4, -1]", "numerics.dt_min=1"})).size(), 1U);
+}
+
+TEST(CaseErrors, AllBadOverridesAreNamed) {
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"dx", "grid.dx="})).size(), 2U);
+}
+
+TEST(CaseErrors, AreOfBoundedLengthAndNumber) {
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += "odd_key_number_" + std::to_string(i) + " = 1\n";
+  const auto lines = lines_of(refusal_of(std::string(small_case) + many));
+  EXPECT_EQ(lines.size(), 21U);
+  EXPECT_EQ(lines.back(), "and 980 more faults");
+  const std::string longest(100000, 'x');
+  for (const std::string& text :
+       {edited("[gate]", "[gate]\n" + longest + " = 1"),
+        edited("name = \"small\"", "name = \"" + longest + '"'), edited("[gate]", "[" + longest + "]"),
+        edited("level = 0.07", "level = [[" + longest + "]]"),
+        edited("end = 10", "end = \"" + longest + '"')}) {
+    EXPECT_LT(refusal_of(text).size(), 1000U);
+    EXPECT_NE(refusal_of(text), "");
+  }
+}
+
+TEST(CaseErrors, ShowWhatCannotBePrintedEscaped) {
+  const std::string name = edited("friction = 0.4", "friction = 0.4\n\"a\\n\\u001b[2J\\u202e\" = 1");
+  const std::string message = refusal_of(name);
+  EXPECT_NE(message.find("solid.\"a\\u000A\\u001B[2J\\u202E\": unknown key"), std::string::npos) << message;
+  const std::string value = refusal_of(edited("end = 10", "end = \"\\u009b31m\\u2028\""));
+  EXPECT_NE(value.find("got \"\\u009B31m\\u2028\""), std::string::npos) << value;
+  EXPECT_NE(refusal([] { parse_scene("x", "a\nb.toml"); }).find("a\\u000Ab.toml:1:"), std::string::npos);
+  EXPECT_NE(refusal_of(small_case, {"grid.dx=\xff\x1b"}).find("grid.dx: got \\xFF\\u001B"),
+            std::string::npos);
+}
+
+TEST(CaseErrors, AQuotedPathIsOneNameAndNoKey) {
+  EXPECT_NE(refusal_of("\"solid.friction\" = 0.3\n" + std::string(small_case)).find("unknown key"),
+            std::string::npos);
 }
 
 TEST(CaseErrors, RefuseAnEmptyFile) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "solver/tests/scene/case_fixture.hpp"
 #include "solver/tests/temporary_directory.hpp"
@@ -61,27 +62,32 @@ TEST_F(CaseFiles, OverridesComeAfterTheLastFile) {
 TEST_F(CaseFiles, AnErrorNamesTheFileWhereTheValueStands) {
   write("bad.toml", "base = \"small.toml\"\n[scene]\nname = \"bad\"\n\n[solid]\nfriction = -1\n");
   const auto file = write("last.toml", "base = \"bad.toml\"\n[scene]\nname = \"last\"\n");
-  EXPECT_EQ(refused(file), path("bad.toml") + ":6: solid.friction: got -1, allowed: a number >= 0");
+  EXPECT_EQ(refused(file), path("bad.toml") + ":6:12: solid.friction: got -1, allowed: a number >= 0");
 }
 
 TEST_F(CaseFiles, RefuseAMissingBaseAndACircle) {
   EXPECT_NE(
-      refused(write("lost.toml", "base = \"none.toml\"\n")).find("lost.toml:1: base: got \"none.toml\""),
+      refused(write("lost.toml", "base = \"none.toml\"\n")).find("lost.toml:1:8: base: got \"none.toml\""),
       std::string::npos);
   EXPECT_NE(refused(write("round.toml", "base = \"round.toml\"\n")).find("without a circle"),
             std::string::npos);
-  EXPECT_NE(refused(write("number.toml", "base = 3\n")).find("number.toml:1: base: got 3"),
+  EXPECT_NE(refused(write("number.toml", "base = 3\n")).find("number.toml:1:8: base: got 3"),
             std::string::npos);
 }
 
 TEST_F(CaseFiles, RefuseANameThatIsNotTheFiles) {
   EXPECT_EQ(refused(write("other.toml", small_case)),
-            path("other.toml") + ":2: scene.name: got \"small\", allowed: \"other\", the file's stem");
+            path("other.toml") + ":2:8: scene.name: got \"small\", allowed: \"other\", the file's stem");
 }
 
 TEST_F(CaseFiles, RefuseWhatCannotBeRead) {
   EXPECT_EQ(refused(path("none.toml")), path("none.toml") + ": cannot be read, allowed: a case file (TOML)");
   EXPECT_NE(refused(fs::temp_directory_path()).find("is a directory"), std::string::npos);
+  EXPECT_NE(refused("/dev/zero").find("/dev/zero: is no regular file"), std::string::npos);
+  ASSERT_EQ(::mkfifo(path("pipe.toml").c_str(), 0600), 0);
+  EXPECT_NE(refused(path("pipe.toml")).find("pipe.toml: is no regular file"), std::string::npos);
+  fs::resize_file(write("huge.toml", ""), std::uintmax_t{1} << 40U);
+  EXPECT_NE(refused(path("huge.toml")).find("has 1099511627776 bytes"), std::string::npos);
 }
 
 TEST_F(CaseFiles, TheResolvedFileLoadsToTheSameScene) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/scene/load_scene.hpp"
@@ -31,6 +32,20 @@ TEST(LoadScene, ReadsGeometryAndMaterials) {
   numerics.dt_max = scene.numerics.dt_max;
   numerics.dt_min = scene.numerics.dt_min;
   EXPECT_EQ(scene.numerics, numerics);
+}
+
+TEST(LoadScene, AGateMayStandOnASeam) {
+  const std::vector<std::string> joined{"walls.left=periodic", "walls.right=periodic"};
+  for (const double x : {0.399, 0.4}) {
+    auto overrides = joined;
+    overrides.push_back(fmt::format("gate.position={}", x));
+    EXPECT_EQ(small(overrides).gate->position, x);
+  }
+  auto outside = joined;
+  outside.push_back("gate.position=0.401");
+  EXPECT_NE(
+      refusal([&] { small(outside); }).find("gate.position: got 0.401, allowed: inside the tank, at most"),
+      std::string::npos);
 }
 
 TEST(LoadScene, CountsTimesInColumnUnits) {
@@ -69,7 +84,7 @@ TEST(LoadScene, ReadsWalls) {
   EXPECT_EQ(scene.sides[left].solid.kind, WallKind::no_slip);
   EXPECT_EQ(scene.sides[right].fluid.kind, WallKind::slip);
   EXPECT_EQ(scene.sides[right].solid.kind, WallKind::slip);
-  EXPECT_EQ(scene.sides[bottom].fluid.kind, WallKind::no_slip);
+  EXPECT_EQ(scene.sides[bottom].fluid.kind, WallKind::slip) << "walls.all holds for what a side leaves open";
   EXPECT_EQ(scene.sides[bottom].solid, (PhaseWall{WallKind::coulomb, 0.2}));
   EXPECT_EQ(scene.sides[bottom].velocity, (Vec3{0.1, 0, 0}));
   EXPECT_EQ(scene.sides[top].kind, SideKind::open);
@@ -80,8 +95,58 @@ TEST(LoadScene, ReadsWalls) {
 }
 
 TEST(LoadScene, OverridesReplaceAWordByATableAndBack) {
-  EXPECT_EQ(small({"walls.top.fluid=slip"}).sides[top].kind, SideKind::wall);
+  EXPECT_EQ(small({"walls.top={fluid=\"slip\", solid=\"slip\"}"}).sides[top].kind, SideKind::wall);
+  EXPECT_EQ(small({"walls.top=no-slip", "walls.top.fluid=slip"}).sides[top].kind, SideKind::wall);
   EXPECT_EQ(small({"walls.top.fluid=slip", "walls.top=open"}).sides[top].kind, SideKind::open);
+}
+
+// What a side leaves open its own word says, then the parts of walls.all, then its word.
+TEST(LoadScene, PartsOfAWallComeFromItsWordThenFromAll) {
+  const auto wall = [](const std::vector<std::string>& overrides, int side) {
+    const Side s = small(overrides).sides[side];
+    return std::pair(s.fluid.kind, s.solid.kind);
+  };
+  using enum WallKind;
+  EXPECT_EQ(wall({"walls.all=slip", "walls.left.solid=no-slip"}, left), std::pair(slip, no_slip));
+  EXPECT_EQ(wall({"walls.all=slip", "walls.left.fluid=no-slip"}, left), std::pair(no_slip, slip));
+  EXPECT_EQ(wall({"walls.left=slip", "walls.left.solid=no-slip"}, left), std::pair(slip, no_slip));
+  EXPECT_EQ(wall({"walls.all.fluid=slip", "walls.left.solid=no-slip"}, left), std::pair(slip, no_slip));
+  EXPECT_EQ(wall({"walls.all=slip", "walls.all.solid=no-slip"}, left), std::pair(slip, no_slip));
+  EXPECT_EQ(wall({"walls.all=slip", "walls.left=no-slip", "walls.left.solid=slip"}, left),
+            std::pair(no_slip, slip));
+  EXPECT_EQ(wall({"walls.left.solid=slip"}, left), std::pair(no_slip, slip));
+  EXPECT_EQ(wall({"walls.all=slip", "walls.left.solid=no-slip"}, right), std::pair(slip, slip));
+}
+
+TEST(LoadScene, FrictionOfAWallComesFromAll) {
+  const std::vector<std::string> all{"walls.all.solid=coulomb", "walls.all.solid_friction=0.3"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> both = all;
+    both.insert(both.end(), more.begin(), more.end());
+    return small(both).sides[left].solid;
+  };
+  EXPECT_EQ(with({}), (PhaseWall{WallKind::coulomb, 0.3}));
+  EXPECT_EQ(with({"walls.left.solid_friction=0.2"}), (PhaseWall{WallKind::coulomb, 0.2}));
+  EXPECT_EQ(with({"walls.left.solid=coulomb"}), (PhaseWall{WallKind::coulomb, 0.3}));
+  EXPECT_EQ(with({"walls.left.solid=slip"}), (PhaseWall{WallKind::slip, 0.0}));
+  EXPECT_EQ(with({"walls.left=no-slip"}), (PhaseWall{WallKind::no_slip, 0.0}));
+}
+
+TEST(LoadScene, AMovingWallKeepsWhatAllSays) {
+  const Side side = small({"walls.all.fluid=slip", "walls.bottom.velocity=[0.1, 0]"}).sides[bottom];
+  EXPECT_EQ(side.fluid.kind, WallKind::slip);
+  EXPECT_EQ(side.solid.kind, WallKind::no_slip);
+  EXPECT_EQ(side.velocity, (Vec3{0.1, 0, 0}));
+}
+
+TEST(LoadScene, TakesWholeNumbersForIntegers) {
+  EXPECT_EQ(small({"scene.dimensions=2.0"}), small());
+  EXPECT_EQ(small({"numerics.newton_max=20.0"}).numerics.newton_max, 20);
+}
+
+TEST(LoadScene, AGateStandsOnEitherSideOfTheBed) {
+  EXPECT_EQ(small({"bed.x=0.3", "gate.position=0.3"}).gate->position, 0.3);
+  EXPECT_EQ(small({"gate.position=0.15"}).gate->position, 0.15);
 }
 
 TEST(LoadScene, ReadsThreeDimensions) {

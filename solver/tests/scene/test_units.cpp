@@ -13,6 +13,7 @@
 namespace granvof {
 namespace {
 
+using test::refusal;
 using test::small;
 
 TEST(Units, AreRead) {
@@ -81,6 +82,11 @@ TEST(Restate, NeedsNoStatedSteps) {
   EXPECT_DOUBLE_EQ(b.numerics.dt_max, 0.1 * a.numerics.dt_max);
   EXPECT_DOUBLE_EQ(b.numerics.dt_min, 0.1 * a.numerics.dt_min);
   EXPECT_DOUBLE_EQ(small({"numerics.dt_max=5e-3"}).numerics.dt_min, 1e-9);
+}
+
+TEST(Restate, RefusesFactorsThatLeadBeyondWhatKeysTake) {
+  EXPECT_NE(refusal([] { restated_case(small(), {.mass = 1e40}); }).find("of a size within"),
+            std::string::npos);
 }
 
 TEST(Restate, LeavesTimesInColumnUnits) {

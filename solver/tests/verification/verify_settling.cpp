@@ -130,8 +130,8 @@ class OneDimensional : public ::testing::TestWithParam<Suspension> {};
 
 // The friction solve leaves 1e-9 of sqrt(g H) = 5e-10 m/s a step, other in each column: 1e-7 of a cell of 0.5
 // mm in 0.18 s, 2e-5 in these 120 steps. Row by row one column differs by what the volume tolerance of 1e-6
-// of a cell and step adds up to, 6e-4 at most where f_s is steep; at a tolerance of 1e-9 by 2e-5. The front
-// has the sum of the rows, where that cancels. Physical waves grow by less than 1 % meanwhile.
+// of a cell and step adds up to: by up to 6e-4 where f_s is steep. The front has the sum of the rows, where
+// that cancels. Physical waves grow by less than 1 % meanwhile.
 TEST_P(OneDimensional, InEveryTank) {
   const Suspension& s = GetParam();
   const int steps = 120;

@@ -1,0 +1,329 @@
+#include "solver/scene/plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/closures/elastic_energy.hpp"
+#include "solver/scene/plausibility_rows.hpp"
+#include "solver/scene/scales.hpp"
+#include "solver/scene/side_names.hpp"
+
+namespace granvof {
+namespace plausible {
+namespace {
+
+double smallest_cell(const Scene& s) {
+  return *std::min_element(s.grid.spacing.begin(), s.grid.spacing.begin() + s.dimensions);
+}
+double shortest_of_bed(const Scene& s) {
+  double shortest = infinity;
+  for (int axis = 0; axis < s.dimensions; ++axis) shortest = std::min(shortest, extent(s.bed->box, axis));
+  return shortest;
+}
+
+// Energy that the contacts of the bed hold at solid fraction f, over that of its own height above its base
+// [-].
+double springs(const Scene& s, double f) {
+  const closures::ElasticEnergy energy(s.contact);
+  return energy(f, s.contact.solid_fraction_min) / (f * s.solid.density * s.gravity * 0.5 * bed_height(s));
+}
+bool may_spring(const Scene& s) {
+  return s.bed && s.gravity > 0.0 && !s.model.shear_dilatancy &&
+         s.bed->solid_fraction > s.contact.solid_fraction_min;
+}
+// From which share on a bed springs visibly: it lifts its own middle by so much of it.
+constexpr double largest_spring = 0.05;
+Usual fractions_that_rest(const Scene& s) {
+  double rests = s.contact.solid_fraction_min, springs_up = s.contact.solid_fraction_max;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (rests + springs_up);
+    (springs(s, middle) > largest_spring ? springs_up : rests) = middle;
+  }
+  return {0.0, rests};
+}
+
+double off_the_bed(const Scene& s) {
+  const Box& bed = s.bed->box;
+  return std::min(std::fabs(s.gate->position - bed.lower[0]), std::fabs(s.gate->position - bed.upper[0]));
+}
+
+// Where the cells let the plate stand: on the face nearest to gate.position.
+double face_of_gate(const Scene& s) {
+  const double h = s.grid.spacing[0];
+  return h * std::round(s.gate->position / h);
+}
+constexpr double off_a_face = 1e-6;  // from how much on, in cells: rounding of lengths in a case file
+
+double wall_speed(const Side& side) {
+  return std::hypot(side.velocity[0], side.velocity[1], side.velocity[2]);
+}
+
+// [s]: that of the scene; or, where that takes longer, the time in which a grain settles or rises by a cell
+// in the liquid (Stokes), which is how fast a suspension changes.
+double time_of_change(const Scene& s) {
+  const double time = scales_of(s).time();
+  if (!s.bed || s.liquid_boxes.empty()) return time;
+  const double excess = std::fabs(s.solid.density - s.liquid.density);
+  const double d = s.solid.diameter;
+  const double stokes = excess * s.gravity * d * d / (18.0 * s.liquid.viscosity);
+  return std::max(time, s.grid.spacing[1] / stokes);
+}
+
+// Share of time_of_change that a step may take: s1 on 5 mm with steps up to 0.07 / 0.14 / 0.28 of it has its
+// front 0.4 / 0.9 / 1.1 % farther than with 0.014.
+constexpr double longest_step = 0.2;
+
+// --- the table -------------------------------------------------------------------------------------------
+
+constexpr Usual of_grains{1e-5, 0.1};  // their diameter [m]
+
+std::vector<Row> tank_rows() {
+  const auto largest = [](const Scene& s) -> Number {
+    return *std::max_element(s.tank.begin(), s.tank.begin() + s.dimensions);
+  };
+  const auto smallest = [](const Scene& s) -> Number {
+    return *std::min_element(s.tank.begin(), s.tank.begin() + s.dimensions);
+  };
+  return {
+      row("tank.size", "m", largest, Usual{0.0, 50.0}, "a tank of the size of a building; millimetres?"),
+      row("tank.size", "m", smallest, Usual{1e-4, infinity}, "a tank of the size of a grain; kilometres?"),
+      row(
+          "tank.depth", "m",
+          [](const Scene& s) -> Number { return s.dimensions == 2 ? Number(s.tank[2]) : std::nullopt; },
+          Usual{1e-4, 50.0}, "results are stated for this depth; millimetres?"),
+      row(
+          "tank.gravity", "m/s2", [](const Scene& s) { return positive(s.gravity); }, Usual{1.0, 30.0},
+          "from the Moon's to Jupiter's; cm/s2, or km/s2?"),
+  };
+}
+
+std::vector<Row> grid_rows() {
+  return {
+      row(
+          "grid.dx", "m",
+          [](const Scene& s) {  // a diameter that is no grain's says nothing about the cells
+            const bool grains = s.solid.diameter >= of_grains.lower && s.solid.diameter <= of_grains.upper;
+            return grains ? if_bed(s, smallest_cell(s)) : std::nullopt;
+          },
+          [](const Scene& s) {
+            return Usual{0.25 * s.solid.diameter, 1e3 * s.solid.diameter};
+          },
+          [](const Scene& s) {
+            return fmt::format("a cell's average needs grains in it, solid.diameter = {} m",
+                               s.solid.diameter);
+          }),
+  };
+}
+
+std::vector<Row> wall_rows() {
+  std::vector<Row> rows;
+  for (int side = 0; side < 6; ++side) {
+    const std::string name = "walls." + std::string(case_file::side_names[side]);
+    rows.push_back(row(
+        name + ".solid_friction", "",
+        [side](const Scene& s) -> Number { return s.sides[side].solid.friction; }, Usual{0.0, steepest},
+        "the tangent of an angle; degrees?"));
+    rows.push_back(row(
+        name + ".velocity", "m/s", [side](const Scene& s) -> Number { return wall_speed(s.sides[side]); },
+        Usual{0.0, 50.0}, "a wall that passes a laboratory in a blink; mm/s?"));
+  }
+  return rows;
+}
+
+std::vector<Row> fluid_rows() {
+  const auto thickness = [](const Scene& s) {
+    const bool like_water = s.liquid.density > 985.0 && s.liquid.density < 1040.0;
+    return like_water ? if_liquid(s, s.liquid.viscosity) : std::nullopt;
+  };
+  return {
+      row(
+          "gas.density", "kg/m3", [](const Scene& s) -> Number { return s.gas.density; }, Usual{0.05, 200.0},
+          "from hot hydrogen to air at 150 bar; air has 1.2; g/cm3?"),
+      row(
+          "gas.viscosity", "Pa s", [](const Scene& s) { return positive(s.gas.viscosity); },
+          Usual{4e-6, 1e-4}, "air has 1.8e-5; mPa s (cP)?"),
+      row(
+          "liquid.density", "kg/m3", [](const Scene& s) { return if_liquid(s, s.liquid.density); },
+          Usual{400.0, 14000.0}, "from propane to mercury; water has 1000; g/cm3?"),
+      row(
+          "liquid.viscosity", "Pa s",
+          [](const Scene& s) { return s.liquid_boxes.empty() ? std::nullopt : positive(s.liquid.viscosity); },
+          Usual{1e-4, 10.0},
+          "from propane to honey; water has 1e-3; a kinematic viscosity (m2/s), or mPa s (cP)?"),
+      missing(
+          "liquid.level", [](const Scene& s) { return s.liquid_boxes.empty() && s.liquid != s.gas; },
+          "a level or a liquid.box", "the case has a [liquid], but none of it in the tank"),
+      row("liquid.viscosity", "Pa s", thickness, Usual{0.0, 0.3},
+          "a liquid as heavy as water that flows like syrup; water has 1e-3; mPa s (cP)?"),
+  };
+}
+
+std::vector<Row> solid_rows() {
+  return {
+      row(
+          "solid.density", "kg/m3", [](const Scene& s) { return if_bed(s, s.solid.density); },
+          Usual{10.0, 23000.0}, "from foamed polystyrene to osmium; glass has 2500; g/cm3?"),
+      row(
+          "solid.diameter", "m", [](const Scene& s) { return if_bed(s, s.solid.diameter); }, of_grains,
+          "from silt to cobbles; finer grains stick; millimetres, or micrometres?"),
+      row(
+          "solid.diameter", "m", [](const Scene& s) { return if_bed(s, s.solid.diameter); },
+          [](const Scene& s) {
+            return Usual{0.0, shortest_of_bed(s) / 3.0};
+          },
+          "the bed is not three grains high and long"),
+      row(
+          "solid.diameter", "m", [](const Scene& s) { return if_bed(s, s.solid.diameter); },
+          [](const Scene& s) {
+            return Usual{0.0, smallest_cell(s)};
+          },
+          "larger than a cell (grid.dx), whose average needs grains in it"),
+      row(
+          "solid.restitution", "", [](const Scene& s) { return if_bed(s, s.solid.restitution); },
+          Usual{0.05, 0.99}, "glass beads have 0.9; at 1 agitation never decays"),
+      row(
+          "solid.friction", "", [](const Scene& s) { return if_bed(s, s.solid.friction); },
+          Usual{0.05, steepest},
+          [](const Scene& s) {
+            const double tangent = std::tan(s.solid.friction * std::numbers::pi / 180.0);
+            return s.solid.friction > steepest && s.solid.friction < 60.0
+                       ? fmt::format("the tangent of an angle: {:.3g} for {} degrees", tangent,
+                                     s.solid.friction)
+                       : std::string("the tangent of an angle; glass beads have 0.4");
+          }),
+  };
+}
+
+std::vector<Row> bed_rows() {
+  return {
+      missing(
+          "bed", [](const Scene& s) { return !s.bed && s.solid != Solid{}; }, "a table [bed]",
+          "the case has a [solid], but no grains in the tank"),
+      row(
+          "bed.height", "m", [](const Scene& s) { return if_bed(s, bed_height(s)); },
+          [](const Scene& s) {
+            return Usual{2.0 * s.grid.spacing[1], infinity};
+          },
+          "the grid does not resolve the bed: two cells at least"),
+      row(
+          "bed.length", "m",
+          [](const Scene& s) { return s.bed ? Number(extent(s.bed->box, 0)) : std::nullopt; },
+          [](const Scene& s) {
+            return Usual{std::min(2.0 * s.grid.spacing[0], s.tank[0]), infinity};
+          },
+          "the grid does not resolve the bed: two cells at least"),
+      row(
+          "bed.solid_fraction", "",
+          [](const Scene& s) { return may_spring(s) ? Number(s.bed->solid_fraction) : std::nullopt; },
+          fractions_that_rest,
+          [](const Scene& s) {
+            return fmt::format(
+                "without model.shear_dilatancy a bed denser than contact.solid_fraction_min = {} springs: "
+                "its "
+                "contacts hold {:.3g} times the energy of its own height",
+                s.contact.solid_fraction_min, springs(s, s.bed->solid_fraction));
+          }),
+      row(
+          "bed.colour_size", "m",
+          [](const Scene& s) {
+            return s.bed && s.bed->colour != ColourPattern::uniform ? Number(s.bed->colour_size)
+                                                                    : std::nullopt;
+          },
+          [](const Scene& s) {
+            return Usual{smallest_cell(s), infinity};
+          },
+          "bands finer than a cell are grey"),
+      row(
+          "gate.position", "m",
+          [](const Scene& s) {
+            const bool apart = s.gate && s.bed && off_the_bed(s) > s.grid.spacing[0];
+            return apart ? Number(s.gate->position) : std::nullopt;
+          },
+          [](const Scene& s) {
+            const double front = s.bed->box.upper[0];
+            return Usual{front, front + s.grid.spacing[0]};
+          },
+          "a plate that does not touch the bed does not hold it"),
+      {"gate.position",
+       [](const Scene& s) -> std::optional<Implausible> {
+         if (!s.gate) return std::nullopt;
+         const double face = face_of_gate(s);
+         if (std::fabs(s.gate->position - face) <= off_a_face * s.grid.spacing[0]) return std::nullopt;
+         return Implausible{"gate.position", fmt::format("{:.9g} m", s.gate->position),
+                            fmt::format("a face of the cells, the nearest {:.9g} m", face),
+                            "the plate stands on that face, beside its place"};
+       }},
+      row(
+          "gate.speed", "m/s", [](const Scene& s) { return if_gate(s, s.gate->speed); },
+          [](const Scene& s) {
+            return Usual{0.1 * std::sqrt(s.gravity * bed_height(s)), 50.0};
+          },
+          "from slower than the collapse it sets free to that of a shot; mm/s?"),
+  };
+}
+
+std::vector<Row> run_rows() {
+  return {
+      row(
+          "time.end", "s", [](const Scene& s) -> Number { return s.times.end; },
+          [](const Scene& s) {
+            return Usual{1e-3 * scales_of(s).time(), 1e7 * scales_of(s).time()};
+          },
+          "against the time in which the scene changes; time.unit, or milliseconds?"),
+      row(
+          "numerics.dt_max", "s", [](const Scene& s) -> Number { return s.numerics.dt_max; },
+          [](const Scene& s) {
+            return Usual{0.0, longest_step * time_of_change(s)};
+          },
+          [](const Scene& s) {
+            return fmt::format("the scene changes in {:.3g} s; results follow a longer step",
+                               time_of_change(s));
+          }),
+      row(
+          "numerics.dt_min", "s", [](const Scene& s) -> Number { return s.numerics.dt_min; },
+          [](const Scene& s) {
+            return Usual{0.0, 0.01 * s.numerics.dt_max};
+          },
+          "hardly a step may be refused before the run ends"),
+      row(
+          "numerics.volume_tolerance", "",
+          [](const Scene& s) -> Number { return s.numerics.volume_tolerance; }, Usual{1e-12, 1e-3},
+          "volume errors add up over the steps; rounding leaves 1e-14"),
+      row(
+          "numerics.linear_tolerance", "",
+          [](const Scene& s) -> Number { return s.numerics.linear_tolerance; }, Usual{1e-10, 0.3},
+          "solves that hardly reduce the residual, or to rounding, cost steps"),
+  };
+}
+
+std::vector<Row> all_rows() {
+  std::vector<Row> all;
+  for (const auto& part :
+       {tank_rows, grid_rows, wall_rows, fluid_rows, solid_rows, contact_rows, bed_rows, run_rows}) {
+    for (Row& r : part()) all.push_back(std::move(r));
+  }
+  return all;
+}
+
+}  // namespace
+}  // namespace plausible
+
+std::vector<Implausible> plausibility(const Scene& scene) {
+  std::vector<Implausible> found;
+  for (const plausible::Row& r : plausible::all_rows()) {
+    const bool named = std::ranges::any_of(found, [&](const Implausible& i) { return i.key == r.key; });
+    if (named) continue;
+    if (auto finding = r.look(scene)) found.push_back(std::move(*finding));
+  }
+  return found;
+}
+
+std::string text_of(const Implausible& finding) {
+  return fmt::format("{} = {}: usual is {}: {}", finding.key, finding.given, finding.usual, finding.reason);
+}
+
+}  // namespace granvof

@@ -1,0 +1,173 @@
+// What users mistake: each is named once, by key, value and usual range; what is meant is not.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "solver/scene/plausibility.hpp"
+#include "solver/tests/scene/case_fixture.hpp"
+
+namespace granvof::test {
+namespace {
+
+std::vector<std::string> keys_of(const std::vector<Implausible>& findings) {
+  std::vector<std::string> keys;
+  for (const Implausible& finding : findings) keys.push_back(finding.key);
+  return keys;
+}
+
+struct Mistake {
+  std::string what;                    // of the test
+  std::vector<std::string> overrides;  // of the small case
+  std::vector<std::string> keys;       // that are named, no others
+  std::string part;                    // of the first text
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  *out << mistake.what;
+}
+
+class Mistakes : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, AreNamedByKeyValueAndUsualRange) {
+  const auto findings = plausibility(small(GetParam().overrides));
+  EXPECT_EQ(keys_of(findings), GetParam().keys);
+  ASSERT_FALSE(findings.empty());
+  EXPECT_NE(text_of(findings.front()).find(GetParam().part), std::string::npos) << text_of(findings.front());
+}
+
+const std::vector<Mistake> mistakes{
+    {"friction_in_degrees", {"solid.friction=21.8"}, {"solid.friction"}, "= 21.8: usual is 0.05 to 1.5"},
+    {"friction_in_percent", {"solid.friction=40"}, {"solid.friction"}, "0.839 for 40 degrees"},
+    {"no_friction", {"solid.friction=0"}, {"solid.friction"}, "= 0: usual is 0.05 to 1.5"},
+    {"wall_friction_in_degrees",
+     {"walls.bottom.solid=coulomb", "walls.bottom.solid_friction=20"},
+     {"walls.bottom.solid_friction"},
+     "= 20: usual is at most 1.5"},
+    {"grains_in_mm", {"solid.diameter=0.8"}, {"solid.diameter"}, "= 0.8 m: usual is 1e-05 to 0.1 m"},
+    {"grains_in_micrometres", {"solid.diameter=8e-10"}, {"solid.diameter"}, "= 8e-10 m"},
+    {"grains_larger_than_a_cell",
+     {"grid.dx=0.005", "solid.diameter=6e-3"},
+     {"solid.diameter"},
+     "at most 0.005 m"},
+    {"grains_larger_than_the_bed", {"solid.diameter=0.02"}, {"solid.diameter"}, "not three grains"},
+    {"cells_far_below_a_grain",
+     {"grid.dx=0.0001", "solid.diameter=0.8e-3"},
+     {"grid.dx", "solid.diameter"},
+     "grid.dx = 0.0001 m: usual is 0.0002 to 0.8 m"},
+    {"grains_in_g_per_cm3", {"solid.density=2.5"}, {"solid.density"}, "= 2.5 kg/m3: usual is 10 to 2.3e+04"},
+    {"liquid_in_g_per_cm3", {"liquid.density=1.0"}, {"liquid.density"}, "= 1 kg/m3: usual is 400 to 1.4e+04"},
+    {"gas_in_g_per_cm3", {"gas.density=0.0012"}, {"gas.density"}, "0.0012 kg/m3: usual is 0.05 to 200"},
+    {"fluids_exchanged",
+     {"gas.density=1000", "liquid.density=1"},
+     {"gas.density", "liquid.density"},
+     "gas.density = 1000 kg/m3"},
+    {"water_kinematic",
+     {"liquid.viscosity=1e-6"},
+     {"liquid.viscosity"},
+     "= 1e-06 Pa s: usual is 0.0001 to 10"},
+    {"water_in_cP", {"liquid.viscosity=1"}, {"liquid.viscosity"}, "usual is at most 0.3 Pa s"},
+    {"oil_in_cP", {"liquid.density=950", "liquid.viscosity=20"}, {"liquid.viscosity"}, "= 20 Pa s"},
+    {"air_in_cP", {"gas.viscosity=0.018"}, {"gas.viscosity"}, "4e-06 to 0.0001 Pa s"},
+    {"gravity_in_cm", {"tank.gravity=981"}, {"tank.gravity"}, "= 981 m/s2: usual is 1 to 30"},
+    {"gravity_in_km", {"tank.gravity=0.00981"}, {"tank.gravity"}, "= 0.00981 m/s2"},
+    {"gate_in_mm", {"gate.speed=1000"}, {"gate.speed"}, "= 1000 m/s"},
+    {"gate_too_slow", {"gate.speed=0.001"}, {"gate.speed"}, "usual is 0.07 to 50 m/s"},
+    {"gate_beside_its_face",
+     {"gate.position=0.1049"},
+     {"gate.position"},
+     "= 0.1049 m: usual is a face of the cells, the nearest 0.1 m"},
+    {"bed_that_ends_in_a_cell", {"bed.length=0.104"}, {"gate.position"}, "= 0.104 m"},
+    {"no_liquid_in_the_tank",
+     {"liquid=false", "liquid.density=1000", "liquid.viscosity=1e-3"},
+     {"liquid.level"},
+     "= nothing: usual is a level or a liquid.box"},
+    {"no_bed_in_the_tank",
+     {"bed=false", "gate=false", "reference=false", "time.unit=s"},
+     {"bed"},
+     "the case has a [solid], but no grains in the tank"},
+    {"gate_off_the_bed", {"gate.position=0.2"}, {"gate.position"}, "= 0.2 m: usual is 0.1 to 0.11 m"},
+    {"elastic_grains", {"solid.restitution=1"}, {"solid.restitution"}, "= 1: usual is 0.05 to 0.99"},
+    {"too_soft", {"contact.stiffness=1e4"}, {"contact.stiffness"}, "= 10000 Pa: usual is 2.36e+05 to 1e+12"},
+    {"too_stiff", {"contact.stiffness=1e15"}, {"contact.stiffness"}, "1e+12"},
+    {"steep_contact", {"contact.exponent=9"}, {"contact.stiffness", "contact.exponent"}, ""},
+    {"springs", {"bed.solid_fraction=0.61"}, {"bed.solid_fraction"}, "times the energy of its own height"},
+    {"dense_crystal", {"contact.solid_fraction_max=0.9"}, {"contact.solid_fraction_max"}, "0.74"},
+    {"step", {"numerics.dt_max=0.05"}, {"numerics.dt_max"}, "usual is at most 0.0143 s"},
+    {"end_in_ms", {"time.unit=s", "time.end=1e6"}, {"time.end"}, "= 1000000 s"},
+    {"thin_bands", {"bed.colour=layers", "bed.colour_size=0.002"}, {"bed.colour_size"}, "finer than a cell"},
+    {"thin_bed", {"bed.height=0.015", "solid.diameter=1e-4"}, {"bed.height"}, "two cells"},
+    {"loose_tolerance", {"numerics.volume_tolerance=0.1"}, {"numerics.volume_tolerance"}, ""},
+    {"wall_in_mm", {"walls.bottom.velocity=[200, 0]"}, {"walls.bottom.velocity"}, "= 200 m/s"},
+    {"shear_without",
+     {"contact.critical_solid_fraction=0.6"},
+     {"contact.critical_solid_fraction"},
+     "no effect without model.shear_dilatancy"},
+    {"arrest_without", {"contact.stop_length=2"}, {"contact.stop_length"}, "without model.thin_layer_arrest"},
+    {"pressure_without",
+     {"model.dilatancy_pressure=false", "contact.dilatancy_factor=0.1"},
+     {"contact.dilatancy_factor"},
+     "without model.dilatancy_pressure"},
+};
+INSTANTIATE_TEST_SUITE_P(All, Mistakes, ::testing::ValuesIn(mistakes),
+                         [](const auto& i) { return i.param.what; });
+
+// What a preset sets is judged as if the case had stated it.
+TEST(Plausibility, KnowsWhatThePresetSets) {
+  const std::string dense = "bed.solid_fraction=0.61", critical = "contact.critical_solid_fraction=0.6";
+  for (const char* without : {"paper", "advised"}) {
+    const auto findings =
+        keys_of(plausibility(small({dense, critical, fmt::format("model.preset={}", without)})));
+    EXPECT_EQ(findings, (std::vector<std::string>{"contact.critical_solid_fraction", "bed.solid_fraction"}))
+        << without;
+  }
+  EXPECT_EQ(keys_of(plausibility(small({dense, critical, "contact.stop_length=2", "model.preset=sourced"}))),
+            std::vector<std::string>{});
+  EXPECT_EQ(keys_of(plausibility(small({dense, "model.preset=sourced", "model.shear_dilatancy=false"}))),
+            std::vector<std::string>{"bed.solid_fraction"});
+}
+
+TEST(Plausibility, IsAMatterOfTheBedsWeight) {
+  // At 0.58 the contacts of a low bed hold more than its height; those of a high one bear its weight so.
+  EXPECT_EQ(keys_of(plausibility(small({"bed.solid_fraction=0.58"}))),
+            (std::vector<std::string>{"bed.solid_fraction"}));
+  EXPECT_EQ(keys_of(plausibility(small({"bed.solid_fraction=0.61", "model.shear_dilatancy=true"}))),
+            std::vector<std::string>{});
+  EXPECT_EQ(keys_of(plausibility(
+                small({"tank.size=[40, 12]", "grid.dx=0.1", "liquid.level=7", "bed.length=10",
+                       "bed.height=10", "bed.solid_fraction=0.58", "gate.speed=5", "reference.cell=0.1"}))),
+            std::vector<std::string>{});
+}
+
+TEST(Plausibility, TakesWhatIsLeftOutForMeant) {
+  EXPECT_EQ(keys_of(plausibility(small())), std::vector<std::string>{});
+  // Inviscid and weightless on purpose.
+  EXPECT_EQ(keys_of(plausibility(small({"gas.viscosity=0", "liquid.viscosity=0"}))),
+            std::vector<std::string>{});
+  EXPECT_EQ(keys_of(plausibility(small({"tank.gravity=0", "time.unit=s"}))), std::vector<std::string>{});
+  EXPECT_EQ(keys_of(plausibility(small({"liquid=false"}))), std::vector<std::string>{});
+}
+
+// All that is shipped is meant, but for two beds that are known to spring, two coarse-grained sections whose
+// grains are larger than their cells, and a grid of 5 mm that has no face where the gate of s1 stands.
+TEST(Plausibility, IsSilentOnShippedCases) {
+  namespace fs = std::filesystem;
+  int count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(GRANVOF_CASES_DIR)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = load_scene(entry.path());
+    std::vector<std::string> expected;
+    if (scene.name == "s1-dense" || scene.name == "rondon-dense") expected = {"bed.solid_fraction"};
+    if (scene.name == "sw-2d" || scene.name == "fw-2d") expected = {"solid.diameter"};
+    if (scene.name == "s1-advised") expected = {"gate.position"};
+    EXPECT_EQ(keys_of(plausibility(scene)), expected) << scene.name;
+    ++count;
+  }
+  EXPECT_GT(count, 30);
+}
+
+}  // namespace
+}  // namespace granvof::test
