@@ -1,4 +1,4 @@
-# Every library the project links, all from Debian 12; README.md says what each is for.
+# Every library the project links, all from Debian 12; docs/dependencies.md says what each is for.
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(HDF5 REQUIRED COMPONENTS C)

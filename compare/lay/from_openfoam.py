@@ -1,4 +1,4 @@
-"""An OpenFOAM case's own output (ASCII, one uniform block, x along the tank, y up) as fields.h5 of README.md, "Output".
+"""An OpenFOAM case's own output (ASCII, one uniform block, x along the tank, y up) as fields.h5 of docs/output.md.
 
 The fields then go through the same extraction as ours, so that fronts and levels mean the same on both sides.
 """

@@ -2,6 +2,7 @@
 
 import importlib.machinery
 import importlib.util
+import json
 import stat
 from pathlib import Path
 
@@ -62,6 +63,22 @@ def test_a_failed_run_is_named_with_its_reason(verify, tmp_path, capsys):
     printed = capsys.readouterr()
     assert "FAILED, exit code 1: step collapse at t = 0.1 s" in printed.out
     assert "runs that failed: " in printed.err
+
+
+def test_figures_that_the_readme_no_longer_states_are_said(verify, tmp_path, capsys):
+    kept = json.loads((SCRIPT.parent / "kept/verify/results.json").read_text())["rows"][0]
+    out = tmp_path / "out/verify"
+    out.mkdir(parents=True)
+    arguments = stand_ins(tmp_path)
+
+    def run_with(verdict):
+        results = {"date": "", "frequency": "short", "runs": [], "results": [kept | {"verdict": verdict}]}
+        (out / "results.json").write_text(json.dumps(results))
+        assert verify.main(arguments) == 0, "verdicts decide the exit code, the README does not"
+        return capsys.readouterr().out
+
+    assert "README" not in run_with(kept["verdict"])
+    assert f"state other results in 1 places, as {kept['id']}: kept " in run_with("stale")
 
 
 def test_an_unexpected_verdict_is_the_exit_code(verify, tmp_path):
