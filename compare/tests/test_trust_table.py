@@ -112,7 +112,7 @@ def test_every_line_is_a_row_of_the_table_of_checks():
         for run in [check["run"]] if isinstance(check["run"], str) else check["run"]:
             for t in at if isinstance(at, list) else [at]:
                 # as metric_label() of compare/output/text.cpp has it
-                parts = [f"@{t:g}"] * (t is not None) + [f"-{check[key]}" for key in ("against", "column") if key in check]
+                parts = ([f"@{t:g}"] if t is not None else []) + [f"-{check[key]}" for key in ("against", "column") if key in check]
                 label = "".join([check["metric"], *parts]) + (f" ({check['label']})" if "label" in check else "")
                 there |= {(run, label, reference["kind"]) for reference in references}
     wanted = {(scene, metric, line.kind) for line in LINES for scene in line.scenes for metric in line.metrics}
