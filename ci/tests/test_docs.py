@@ -101,11 +101,15 @@ def test_the_version_is_the_same_everywhere():
     assert newest == version
 
 
-# What the Markdown that GitHub renders does not forgive: an odd number of $ in a line, a display formula without its fence.
+# What GitHub's Markdown does not forgive: an odd number of $ in a line, $ beside a letter, a backslash before a comma within $ $ (the
+# backslash is taken off before the formula is read), a display formula without its fence.
 @pytest.mark.parametrize("page", sorted((ROOT / "docs/theory").glob("*.md")), ids=name)
-def test_formulas_are_closed(page):
+def test_formulas_are_rendered(page):
     text = page.read_text(encoding="utf-8")
     assert "$$" not in text
     assert len(re.findall(r"^ *```", text, re.MULTILINE)) % 2 == 0
-    odd = [line for line in re.sub(r"`[^`\n]*`", "", without_code(text)).splitlines() if line.count("$") % 2]
-    assert not odd
+    prose = re.sub(r"`[^`\n]*`", "", without_code(text))
+    assert not [line for line in prose.splitlines() if line.count("$") % 2]
+    inline = re.findall(r"(.?)(\$[^$\n]+\$)(.?)", prose)
+    assert not [formula for before, formula, after in inline
+                if re.search(r"\\[^\w\s]", formula) or re.search(r"\w", before + after)]
