@@ -94,8 +94,7 @@ def reach(graph, part):
 
 def direct(graph):
     """Without what follows from the rest: if a includes b and b includes c, a to c is not drawn."""
-    return {part: {other for other in others if not any(other in reach(graph, between) for between in others if between != other)}
-            for part, others in graph.items()}
+    return {part: others - {other for between in others for other in reach(graph, between)} for part, others in graph.items()}
 
 
 def level(graph, part):
@@ -140,10 +139,12 @@ def svg(graph):
             lines.append(f'<path d="M{x:.0f},{y:.0f} C{x:.0f},{y + ROW / 2:.0f} {u:.0f},{v - ROW / 2:.0f} {u:.0f},{v:.0f}" '
                          'fill="none" stroke="#666" marker-end="url(#to)"/>')
     for part, (x, y) in sorted(at.items()):
-        lines += [f'<rect x="{x:.0f}" y="{y:.0f}" width="{WIDTH}" height="{HEIGHT}" rx="5" fill="{COLOURS[group_of(part)]}" stroke="#888"/>',
+        lines += [f'<rect x="{x:.0f}" y="{y:.0f}" width="{WIDTH}" height="{HEIGHT}" rx="5" fill="{COLOURS[group_of(part)]}" '
+                  'stroke="#888"/>',
                   f'<text x="{x + WIDTH / 2:.0f}" y="{y + 18:.0f}" text-anchor="middle" font-size="13" font-weight="bold">'
                   f'{escape(part.removeprefix("reference/"))}</text>',
-                  f'<text x="{x + WIDTH / 2:.0f}" y="{y + 35:.0f}" text-anchor="middle" font-size="11">{escape(ABOUT.get(part, ""))}</text>']
+                  f'<text x="{x + WIDTH / 2:.0f}" y="{y + 35:.0f}" text-anchor="middle" font-size="11">'
+                  f'{escape(ABOUT.get(part, ""))}</text>']
     return "\n".join([*lines, "</svg>"]) + "\n"
 
 

@@ -91,7 +91,8 @@ def test_the_closure_passes_its_test(tmp_path):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(block, encoding="utf-8")
     test = tmp_path / "solver/tests/closures/test_linear_drag.cpp"
-    built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", f"-I{tmp_path}", test, "-lgtest", "-lgtest_main", "-o", tmp_path / "test")
+    built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", f"-I{tmp_path}", test, "-lgtest", "-lgtest_main", "-o",
+                 tmp_path / "test")
     assert built.returncode == 0, built.stderr
     done = call(tmp_path / "test")
     assert done.returncode == 0 and "1 test" in done.stdout

@@ -43,8 +43,8 @@ def section_text(page, heading):
 
 def owners():
     """Equation -> owner, as the table of the index states them."""
-    table = re.findall(r"^\| \((\d+)\) [^|]*\|[^|]*\| \[[^\]]*\]\(([^)]*)\) \|$", (THEORY / "README.md").read_text(encoding="utf-8"),
-                       re.MULTILINE)
+    index = (THEORY / "README.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| \((\d+)\) [^|]*\|[^|]*\| \[[^\]]*\]\(([^)]*)\) \|$", index, re.MULTILINE)
     return {int(number): (THEORY / path).resolve() for number, path in table}
 
 
@@ -85,8 +85,8 @@ def test_every_closure_is_on_a_page():
 def test_every_choice_of_the_model_is_on_a_page():
     """A switch or choice of [model] that nobody can read about is a magic word."""
     keys = (ROOT / "solver/scene/keys.cpp").read_text(encoding="utf-8")
-    names = set(re.findall(r'"(model\.\w+)"', keys)) | set(re.findall(r'"(numerics\.(?:solid_flux|bed_surface|interface_scheme|contact_pressure))"',
-                                                                     keys))
+    schemes = "solid_flux|bed_surface|interface_scheme|contact_pressure"
+    names = set(re.findall(rf'"(model\.\w+|numerics\.(?:{schemes}))"', keys))
     text = "\n".join(page.read_text(encoding="utf-8") for page in THEORY.glob("*.md"))
     assert len(names) > 10
     assert not [name for name in sorted(names) if f"`{name}" not in text]

@@ -47,7 +47,8 @@ def read(path):
 def write(path, kept):
     """One row a line: a change of one result is a change of one line."""
     rows = ",\n".join(json.dumps(row, separators=(",", ":")) for row in kept["rows"])
-    costs = ",\n".join(f"{json.dumps(name)}:{json.dumps(cost, separators=(',', ':'))}" for name, cost in sorted(kept["costs"].items()))
+    costs = ",\n".join(f"{json.dumps(name)}:{json.dumps(cost, separators=(',', ':'))}"
+                       for name, cost in sorted(kept["costs"].items()))
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f'{{"rows":[\n{rows}\n],\n"costs":{{\n{costs}\n}}}}\n', encoding="utf-8")
 

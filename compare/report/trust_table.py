@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "compare"))
 from report import kept_results  # noqa: E402
 
 AGREES = ("agrees", "within band")
-RATIOS = ("02", "04", "06", "08")
+FLOATING = tuple(f"float-full-r{ratio}" for ratio in ("02", "04", "06", "08"))
 
 
 @dataclass(frozen=True)
@@ -44,18 +44,19 @@ LINES = (
     run_out("run-out of S1 with the sourced choices", "s1-sourced", "s1"),
     run_out("run-out of S2, the paper's model", "s2", "s2"),
     run_out("run-out of S2 with the sourced choices", "s2-sourced", "s2"),
-    run_out("front of 99.5 % of the grains in air at T = 1 / 2 / 3 / 4.9, frictional restitution", "canary-dry-frictional", "canary-dry",
-            "run_out_quantile", (1, 2, 3, 4.9)),
+    run_out("front of 99.5 % of the grains in air at T = 1 / 2 / 3 / 4.9, frictional restitution", "canary-dry-frictional",
+            "canary-dry", "run_out_quantile", (1, 2, 3, 4.9)),
     Line("pore pressure at the onset, loose [Pa]", ("s1-loose",), ("base_pressure_peak",), "DEM", "s1-loose"),
-    Line("immersed share h/H at density ratio 0.2 / 0.4 / 0.6 / 0.8", tuple(f"float-full-r{r}" for r in RATIOS), ("immersed_share",), "theory"),
-    Line("rate of its approach to rest [1/s]", tuple(f"float-full-r{r}" for r in RATIOS), ("decay_rate",), "DEM", "float-full-r02"),
-    Line("its period without drag, 0.2 / 0.4 / 0.6 [s]", tuple(f"float-full-r{r}-nodrag" for r in RATIOS[:3]), ("period",), "theory"),
+    Line("immersed share h/H at density ratio 0.2 / 0.4 / 0.6 / 0.8", FLOATING, ("immersed_share",), "theory"),
+    Line("rate of its approach to rest [1/s]", FLOATING, ("decay_rate",), "DEM", "float-full-r02"),
+    Line("its period without drag, 0.2 / 0.4 / 0.6 [s]", tuple(f"{scene}-nodrag" for scene in FLOATING[:3]), ("period",), "theory"),
     Line("front of a dam break without grains, rms over a", ("dam-break",), ("dam_break_distance-delta",), "published"),
     Line("slope of a heap at rest, T = 10 to 40, moves by [degrees]", ("heap",), ("slope_drift",), "theory"),
     Line("fastest fluid in a pool at rest [m/s]", ("pool",), ("fluid_speed_max",), "theory"),
 )
 # Of all scenes that have the row: the worst.
-WORST = (("solid volume, largest relative change", "solid_volume_error"), ("liquid volume, largest relative change", "liquid_volume_error"),
+WORST = (("solid volume, largest relative change", "solid_volume_error"),
+         ("liquid volume, largest relative change", "liquid_volume_error"),
          ("energy not accounted for, of that turned over", "energy_closure"))
 
 
@@ -86,7 +87,8 @@ def rows_of(kept, line):
 
 def dem_cost(scene, results=ROOT / "reference/results"):
     """Mean core-seconds of the records of a scene, None where there is none."""
-    costs = [json.loads(path.read_text(encoding="utf-8"))["core_seconds"] for path in sorted((results / scene).glob("seed*/record.json"))]
+    costs = [json.loads(path.read_text(encoding="utf-8"))["core_seconds"]
+             for path in sorted((results / scene).glob("seed*/record.json"))]
     return mean(costs) if costs else None
 
 
@@ -115,12 +117,14 @@ def trust_rows(kept):
         if not rows:
             missing.append(line.what)
             continue
-        shown.append((line.what, together(row["value"] for row in rows), one_reference(rows), line.kind, verdicts(rows), cost_of(kept, line)))
+        shown.append((line.what, together(row["value"] for row in rows), one_reference(rows), line.kind, verdicts(rows),
+                      cost_of(kept, line)))
     for what, metric in WORST:
         rows = [row for row in kept["rows"] if row["metric"] == metric and row["value"] is not None]
         if rows:
             worst = max(rows, key=lambda row: abs(row["value"]))
-            shown.append((f"{what}, worst of {len(rows)} runs", number(abs(worst["value"])), one_reference([worst]), "theory", verdicts(rows), ""))
+            shown.append((f"{what}, worst of {len(rows)} runs", number(abs(worst["value"])), one_reference([worst]), "theory",
+                          verdicts(rows), ""))
     return shown, missing
 
 
@@ -152,7 +156,8 @@ def all_rows(kept):
     for (scene, metric, kind), rows in sorted(groups.items(), key=lambda group: scenes.index(group[0][0])):
         at = [row["metric"].partition("@")[2] for row in rows]
         where = f" at {' / '.join(at)}" if all(at) else ""
-        lines.append((scene, metric + where, together(row["value"] for row in rows), rows[0]["unit"], one_reference(rows), kind, verdicts(rows)))
+        lines.append((scene, metric + where, together(row["value"] for row in rows), rows[0]["unit"], one_reference(rows), kind,
+                      verdicts(rows)))
     return f"{len(kept['rows'])} rows, {verdicts(kept['rows'])}.\n\n" + markdown(
         ["run", "metric", "value", "unit", "reference", "kind", "agrees"], lines)
 
@@ -162,8 +167,10 @@ def failures(kept):
     reasons = {}
     for row in kept["rows"]:
         if row["verdict"] not in AGREES:
-            reasons.setdefault((row["verdict"], row["scene"], row["reason"] or row["note"] or "reported, not asserted" * (not row["asserted"]) or "no reason is stated"), []).append(row)
-    lines = [f"- **{scene}**, {', '.join(row['metric'] for row in rows)} ({verdict}; off by {together(row['distance'] for row in rows)} "
+            reason = row["reason"] or row["note"] or ("no reason is stated" if row["asserted"] else "reported, not asserted")
+            reasons.setdefault((row["verdict"], row["scene"], reason), []).append(row)
+    lines = [f"- **{scene}**, {', '.join(row['metric'] for row in rows)} "
+             f"({verdict}; off by {together(row['distance'] for row in rows)} "
              f"beyond the tolerance): {reason}\n" for (verdict, scene, reason), rows in reasons.items()]
     return "".join(lines) or "None.\n"
 
@@ -205,7 +212,8 @@ def check(root, kept, verified):
                 for file, text in render(root, kept).items() if text != (root / file).read_text(encoding="utf-8")]
     if verified:
         for row, old in kept_results.moved(kept, verified):
-            problems.append(f"{row['id']}: kept {number(old['value'])}, {old['verdict']}; now {number(row['value'])}, {row['verdict']}")
+            problems.append(f"{row['id']}: kept {number(old['value'])}, {old['verdict']}; "
+                            f"now {number(row['value'])}, {row['verdict']}")
     return problems
 
 
