@@ -77,6 +77,8 @@ class Merge {
       return;
     }
     if (!top_level) text_.tables.try_emplace(path.substr(0, path.find('.')), where(node));
+    if (const auto before = text_.entries.find(path); before != text_.entries.end())
+      text_.replaced.emplace_back(*before);
     text_.entries[path] = {value, shown(node, value), where(node), layer_};
   }
 
@@ -202,6 +204,14 @@ CaseText read(toml::table table, const std::string& label, const std::filesystem
 }
 
 }  // namespace
+
+std::vector<Entry> CaseText::stated(const std::string& path) const {
+  std::vector<Entry> all;
+  if (const auto last = entries.find(path); last != entries.end()) all.push_back(last->second);
+  for (auto before = replaced.rbegin(); before != replaced.rend(); ++before)
+    if (before->first == path) all.push_back(before->second);
+  return all;
+}
 
 CaseText read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
   return read(parse(read_file(file), file.string()), file.string(), file.parent_path(), overrides);

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -24,9 +25,13 @@ struct Entry {
 };
 
 struct CaseText {
-  std::string file;                           // the case file as the caller named it
-  std::map<std::string, Entry> entries;       // by dotted path, such as "liquid.box.origin"
-  std::map<std::string, std::string> tables;  // top-level tables that stand in the text, and where
+  std::string file;                                     // the case file as the caller named it
+  std::map<std::string, Entry> entries;                 // by dotted path, such as "liquid.box.origin"
+  std::vector<std::pair<std::string, Entry>> replaced;  // entries that others replaced, in that order
+  std::map<std::string, std::string> tables;            // top-level tables that stand in the text, and where
+
+  // All that the layers say of one path, the last first.
+  std::vector<Entry> stated(const std::string& path) const;
 };
 
 // A table that a later layer sets to false ("gate = false") is dropped. Throws CaseError.

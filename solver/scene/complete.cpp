@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/scene/case_error.hpp"
+#include "solver/scene/presets.hpp"
 #include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
@@ -180,7 +181,11 @@ class Completion {
     }
     if ((s_.model.friction_law == FrictionLaw::inertial || s_.model.thin_layer_arrest) &&
         contact.fast_friction < s_.solid.friction) {
-      refuse("contact.fast_friction", fmt::format("at least solid.friction = {}", s_.solid.friction));
+      refuse(
+          "contact.fast_friction",
+          fmt::format("at least solid.friction = {}, with friction_law = \"inertial\" or thin_layer_arrest "
+                      "(model.preset = \"{}\")",
+                      s_.solid.friction, word_of(d_.preset)));
     }
     if (s_.model.shear_dilatancy && (contact.critical_solid_fraction <= contact.solid_fraction_min ||
                                      contact.critical_solid_fraction >= contact.solid_fraction_max)) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "solver/scene/presets.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof::case_file {
@@ -54,7 +55,8 @@ inline constexpr int side_all = 6;  // index of walls.all beside those of SideIn
 
 struct Draft {
   std::set<std::string> tables;  // the tables that the case has
-  Scene scene;                   // holds what a key gives directly
+  Scene scene;                   // holds what a key gives directly; its initial values are the paper's
+  Preset preset = default_preset;
   std::vector<double> tank_size;
   std::optional<double> depth;
   double dx = 0.0;

@@ -107,6 +107,7 @@ Key key(std::string name, std::string unit, const Range& range, Access access, s
     return read_value(access(draft), value, range);
   };
   k.get = [access](const Draft& draft) { return text_of(access(draft)); };
+  if constexpr (std::is_same_v<T, bool>) k.words = {toml_text(false), toml_text(true)};
   k.otherwise = k.get(Draft{});
   if (k.otherwise.empty()) k.otherwise = "none";
   return k;
@@ -162,6 +163,7 @@ Key choice(std::string name, Words<Enum> words, Access access, std::string help)
   k.name = std::move(name);
   k.type = "word";
   k.allowed = word_list(words);
+  for (const auto& [word, value] : words) k.words.push_back(toml_text(word));
   k.help = std::move(help);
   k.set = [access, words](Draft& draft, const Value& value) {
     const Enum* found = find_word(words, value);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "solver/scene/key_types.hpp"
+#include "solver/scene/presets.hpp"
 #include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
@@ -185,7 +185,13 @@ std::vector<Key> model_keys() {
   const Words<TemperatureModel> temperatures{{"transported", TemperatureModel::transported},
                                              {"algebraic", TemperatureModel::algebraic},
                                              {"off", TemperatureModel::off}};
+  Words<Preset> preset_words;
+  for (const PresetEntry& entry : presets()) preset_words.emplace_back(entry.word, entry.preset);
   return {
+      // Named for the reader: it is in the hashes by what it sets.
+      scoped(choice("model.preset", preset_words, MEMBER(preset),
+                    "What is chosen beside the paper's model, see Presets below; single keys go on top."),
+             Scope::label),
       key("model.drag", "", any, MEMBER(scene.model.drag), "Drag, (8) and (9)."),
       key("model.les", "", any, MEMBER(scene.model.les), "Subgrid viscosity (10)."),
       choice("model.granular_temperature", temperatures, MEMBER(scene.model.granular_temperature), "Eq (7)."),
@@ -315,6 +321,7 @@ std::vector<Key> all_keys() {
   const auto add = [&](std::vector<Key> list) {
     for (Key& k : list) {
       if (k.scope == Scope::unset) k.scope = find_table(k.table())->scope;
+      if (set_by_a_preset(k.name)) k.otherwise = "model.preset's";
       all.push_back(std::move(k));
     }
   };
@@ -331,19 +338,6 @@ std::vector<Key> all_keys() {
   std::stable_sort(all.begin(), all.end(),
                    [](const Key& a, const Key& b) { return find_table(a.table()) < find_table(b.table()); });
   return all;
-}
-
-int edit_distance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = std::exchange(row[0], static_cast<int>(i));
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replace}));
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -383,13 +377,6 @@ const std::vector<Key>& keys() {
 const Key* find_key(std::string_view name) {
   const auto found = std::ranges::find(keys(), name, &Key::name);
   return found == keys().end() ? nullptr : &*found;
-}
-
-std::string nearest_key(std::string_view name) {
-  const auto distance = [&](const Key& k) { return edit_distance(name, k.name); };
-  const auto best = std::ranges::min_element(keys(), {}, distance);
-  const int near = std::max(2, static_cast<int>(name.size()) / 3);
-  return distance(*best) <= near ? best->name : "";
 }
 
 }  // namespace granvof::case_file

@@ -40,6 +40,7 @@ struct Key {
   // Value at which the key stays out of the hashes. For a key that came when there were records: a case that
   // does not use it is the case that was recorded. Empty: the key is in the hash at any value.
   std::string unhashed = {};
+  std::vector<std::string> words = {};  // of a key that takes nothing but these, as canonical TOML
 
   // Takes the value into the draft; false where type or range do not fit.
   std::function<bool(Draft&, const Value&)> set;

@@ -5,6 +5,7 @@
 #include "solver/scene/case_text.hpp"
 #include "solver/scene/complete.hpp"
 #include "solver/scene/keys.hpp"
+#include "solver/scene/presets.hpp"
 
 namespace granvof {
 namespace {
@@ -51,6 +52,7 @@ std::string keys_reference() {
                           key.required() ? "required" : key.otherwise, key.help);
     }
   }
+  page += case_file::presets_reference();
   page +=
       "\nAt the top level `base = \"other.toml\"` takes over another case, table by table and key by key; "
       "what stands "

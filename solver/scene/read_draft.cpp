@@ -5,6 +5,7 @@
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/complete.hpp"
 #include "solver/scene/keys.hpp"
+#include "solver/scene/presets.hpp"
 
 namespace granvof::case_file {
 namespace {
@@ -71,9 +72,15 @@ Draft read_draft(const CaseText& text) {
   for (const Table& table : tables()) {
     if (!table.optional) draft.tables.insert(table.name);
   }
-  for (const auto& [path, entry] : text.entries) {
+  const auto take = [&](const std::string& path, const Entry& entry) {
     const Key& key = *find_key(path);
     if (!key.set(draft, entry.value)) refuse(text, draft, path, key.allowed);
+  };
+  if (const auto preset = text.entries.find("model.preset"); preset != text.entries.end())
+    take(preset->first, preset->second);
+  apply_preset(draft);
+  for (const auto& [path, entry] : text.entries) {
+    if (!gives_way_to_a_preset(text, path)) take(path, entry);
   }
   for (const Key& key : keys()) {
     if (!key.required() || !draft.tables.contains(key.table()) || text.entries.contains(key.name)) continue;

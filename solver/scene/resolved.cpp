@@ -5,6 +5,7 @@
 
 #include "solver/scene/complete.hpp"
 #include "solver/scene/keys.hpp"
+#include "solver/scene/presets.hpp"
 
 namespace granvof::case_file {
 namespace {
@@ -29,7 +30,12 @@ std::string resolved_text(const Draft& draft) {
     for (const Key& key : keys()) {
       if (key.table() != table.name) continue;
       const std::string value = key.get(draft);
-      if (!value.empty()) text += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1), value);
+      if (value.empty()) continue;
+      text += fmt::format("{} = {}", key.name.substr(table.name.size() + 1), value);
+      const Choice* choice = find_choice(key.name);
+      if (choice && text_under(*choice, draft.preset) != value)
+        text += fmt::format("  # the preset has {}", text_under(*choice, draft.preset));
+      text += '\n';
     }
   }
   return text;

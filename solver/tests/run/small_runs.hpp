@@ -41,6 +41,8 @@ height = 0.04
 solid_fraction = 0.57
 [gate]
 speed = 1.0
+[model]
+preset = "paper"
 [time]
 end = 0.1
 [output]

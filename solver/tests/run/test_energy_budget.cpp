@@ -81,6 +81,8 @@ friction = 0.4
 length = 0.04
 height = 0.03
 solid_fraction = 0.57
+[model]
+preset = "paper"
 [time]
 end = 0.1
 [output]
@@ -167,6 +169,7 @@ top = { velocity = [0.02, 0] }
 density = 1000
 viscosity = 0.1
 [model]
+preset = "paper"
 les = false
 [time]
 end = 5

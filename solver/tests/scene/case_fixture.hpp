@@ -43,6 +43,8 @@ field_times = [0, 1, 5]
 [reference]
 cell = 0.01
 slice_depth = 0.004
+[model]
+preset = "paper"
 )";
 
 inline Scene small(std::vector<std::string> overrides = {}) {

@@ -48,6 +48,7 @@ length = 0.1
 height = 0.1
 solid_fraction = 0.3
 [model]
+preset = "paper"
 les = false
 granular_temperature = "off"
 [time]

@@ -87,6 +87,8 @@ friction = 0.40
 length = 0.01
 height = 0.05
 solid_fraction = 0.57
+[model]
+preset = "paper"
 [time]
 end = 10
 )";

@@ -51,7 +51,8 @@ Scene column(double f_s, const Beads& b, double height, double dt_max) {
        << b.liquid_density << "\nviscosity = " << b.liquid_viscosity << "\nlevel = " << height
        << "\n[solid]\ndensity = " << b.density << "\ndiameter = " << b.diameter
        << "\nfriction = 0.4\n[bed]\nlength = " << height / 20.0 << "\nheight = " << height
-       << "\nsolid_fraction = " << f_s << "\n[time]\nend = 100\n[numerics]\nvolume_tolerance = 1e-10\n"
+       << "\nsolid_fraction = " << f_s
+       << "\n[model]\npreset = \"paper\"\n[time]\nend = 100\n[numerics]\nvolume_tolerance = 1e-10\n"
        << "dt_max = " << dt_max << "\n";
   return parse_scene(text.str(), "column");
 }
@@ -147,6 +148,8 @@ x = 0.02
 length = 0.04
 height = 0.004
 solid_fraction = 0.55
+[model]
+preset = "paper"
 [time]
 end = 1
 [numerics]

@@ -94,6 +94,8 @@ viscosity = 1e-5
 density = 1000
 viscosity = 1e-3
 level = 0.05
+[model]
+preset = "paper"
 [time]
 end = 1.5
 [numerics]

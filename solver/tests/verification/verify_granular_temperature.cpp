@@ -19,7 +19,8 @@ std::string dry(double width, double height, double dx, const std::string& walls
        << "]\ngravity = 0\n[grid]\ndx = " << dx << "\n[walls]\n"
        << walls << "\n[gas]\ndensity = 1e-3\nviscosity = 0\n[solid]\ndensity = 1000\ndiameter = " << diameter
        << "\nrestitution = " << e0 << "\nfriction = 0\n[bed]\nlength = " << width << "\nheight = " << height
-       << "\nsolid_fraction = " << f_s << "\n[model]\ndrag = false\n[time]\nend = 1000\n[numerics]\n"
+       << "\nsolid_fraction = " << f_s
+       << "\n[model]\npreset = \"paper\"\ndrag = false\n[time]\nend = 1000\n[numerics]\n"
        << "volume_tolerance = 1e-9\ndt_max = " << dt_max << "\n";
   return text.str();
 }
@@ -201,7 +202,8 @@ TEST(DryCollapse, FluctuationEnergyIsThatOfTheStress) {
         "[scene]\nname = \"dry\"\n[tank]\nsize = [0.0512, 0.0128]\n[grid]\ndx = {}\n[walls]\nall = "
         "\"no-slip\"\ntop = \"open\"\n[gas]\ndensity = 1\nviscosity = 1e-5\n[solid]\ndensity = 2500\n"
         "diameter = 0.8e-3\nrestitution = 0.9\nfriction = 0.4\n[bed]\nlength = 0.0128\nheight = 0.0096\n"
-        "solid_fraction = 0.57\n[time]\nend = 1\n[numerics]\nsolid_flux = \"limited\"\n",
+        "solid_fraction = 0.57\n[model]\npreset = \"paper\"\n[time]\nend = 1\n[numerics]\nsolid_flux = "
+        "\"limited\"\n",
         dx);
     Simulation run(parse_scene(text, "dry"));
     const double height = run.now.energy.potential;
