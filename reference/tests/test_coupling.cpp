@@ -8,6 +8,7 @@
 
 #include "reference/demvof/coupling/coupled_run.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
+#include "reference/tests/printed_drag.hpp"
 
 namespace {
 
@@ -18,7 +19,7 @@ using demvof::FluidSettings;
 using demvof::FluidSide;
 
 constexpr double d = 0.8e-3;
-constexpr demvof::PhaseProperties water{1000.0, 1e-3};
+constexpr demvof::test::PhaseProperties water{1000.0, 1e-3};
 
 struct TankSetup {
   FluidSettings fluid;
@@ -63,7 +64,7 @@ double terminal_speed(double f_s, double density, double gravity) {
   double low = 0.0, high = 2.0;
   for (int n = 0; n < 100; ++n) {
     const double u = 0.5 * (low + high);
-    (demvof::bead_drag(f_s, u, water, d) * u < weight ? low : high) = u;
+    (demvof::test::bead_drag(f_s, u, water, d) * u < weight ? low : high) = u;
   }
   return low;
 }

@@ -9,9 +9,6 @@
 
 namespace granvof::closures {
 
-inline constexpr double least_solid_pressure_slope =
-    1.0;  // [Pa]; keeps the implicit step regular without grains
-
 // f_s >= 0. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
 // parts together are max(P_s^K, P_s^D); with `resting` > 0 max(P_s^K, P_s^D, P_s^W). `packing`: where the
 // grains touch, see elastic_pressure().
@@ -33,7 +30,6 @@ inline PressureAndSlope solid_pressure(double f_s, double theta, double e, doubl
   }
   p.value += flow.value;
   p.slope += flow.slope;
-  p.slope = std::max(p.slope, least_solid_pressure_slope);
   return p;
 }
 

@@ -9,6 +9,15 @@
 
 namespace granvof::linear {
 
+namespace {
+
+// 1 / x, rounded to a power of two: multiplying by it loses nothing. 1 for 0.
+double power_of_two_near(double x) {
+  return x > 0.0 ? std::ldexp(1.0, -std::ilogb(x)) : 1.0;
+}
+
+}  // namespace
+
 ScalarSolver::ScalarSolver(const Layout& layout, const Communicator& communicator,
                            const std::array<double, 3>& spacing, int smoothing)
     : user_(layout),
@@ -37,7 +46,10 @@ Report ScalarSolver::solve(const Faces& faces, const double* mass, const double*
   double norm = start, rz = 0.0;
   bool fresh = true;
   for (;;) {
-    if (fresh) scale_residual();
+    if (fresh) {
+      unit_ = power_of_two_near(start);
+      scale_residual();
+    }
     double previous = rz;
     const float* z = multigrid_.cycle(smoothing_, &rz);
     rz = communicator_.sum(rz);
@@ -46,7 +58,7 @@ Report ScalarSolver::solve(const Faces& faces, const double* mass, const double*
     fresh = false;
     const double pq = communicator_.sum(multiply(faces, mass));
     const bool broken = !(pq > 0.0) || !std::isfinite(pq) || !std::isfinite(rz);
-    if (!broken) norm = communicator_.max(advance(rz / pq, x));
+    if (!broken) norm = communicator_.max(advance(rz / pq / unit_, x));
     if (!broken && norm > target && std::isfinite(norm) && report.iterations < tolerance.max_iterations)
       continue;
 
@@ -87,7 +99,7 @@ double ScalarSolver::true_residual(const Faces& faces, const double* mass, const
   }));
 }
 
-// q = A p; returns p . q of this process.
+// q = A p, both per unit; returns p . q of this process.
 double ScalarSolver::multiply(const Faces& faces, const double* mass) {
   if (any_periodic(layout_)) communicator_.exchange(layout_, p_.data());
   const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
@@ -127,9 +139,10 @@ void ScalarSolver::combine(const float* z, double beta) {
   });
 }
 
-// x += alpha p, r -= alpha q, and the new residual scaled for multigrid; the largest value of r.
+// x += alpha p, r -= alpha q (alpha per unit), and the new residual scaled for multigrid; the largest value of r.
 double ScalarSolver::advance(double alpha, double* x) {
   const int n = user_.n[0];
+  const double unit = unit_;
   return max_rows(layout_, [&](int j, int k) {
     const std::ptrdiff_t here = layout_.index(0, j, k);
     const float *p = p_.data() + here, *s = multigrid_.scale() + here;
@@ -142,7 +155,7 @@ double ScalarSolver::advance(double alpha, double* x) {
       to[i] += alpha * p[i];
       const double v = r[i] - alpha * q[i];
       r[i] = v;
-      scaled[i] = s[i] * static_cast<float>(v);
+      scaled[i] = s[i] * static_cast<float>(unit * v);
       line = std::max(line, std::fabs(v));
       poison += 0.0 * v;
     }
@@ -152,13 +165,14 @@ double ScalarSolver::advance(double alpha, double* x) {
 
 void ScalarSolver::scale_residual() {
   const int n = user_.n[0];
+  const double unit = unit_;
   for_rows(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
     const float* s = multigrid_.scale() + row;
     const double* r = r_.data() + row;
     float* scaled = multigrid_.residual() + row;
 #pragma omp simd
-    for (int i = 0; i < n; ++i) scaled[i] = s[i] * static_cast<float>(r[i]);
+    for (int i = 0; i < n; ++i) scaled[i] = s[i] * static_cast<float>(unit * r[i]);
   });
 }
 

@@ -6,22 +6,26 @@
 #include "solver/closures/point_on_law.hpp"
 #include "solver/closures/solid_pressure.hpp"
 #include "solver/operators/flux_balance.hpp"
+#include "solver/scene/scales.hpp"
 
 namespace granvof {
 namespace {
 
 constexpr int upwinding_settles = 4;  // iteration from which the upwind directions are kept
 // Grains do not pull. The solution of the linearised law may: a bed that opens within the step leaves P_lin
-// far below zero where the law says 0. Only as much tension as this passes for none [Pa]; a layer of grains
-// weighs ten.
-constexpr double tension_that_matters = 1.0;
+// far below zero where the law says 0. Only as much tension as this share of the bed's load passes for none; a
+// layer of grains weighs ten times that.
+constexpr double tension_that_matters = 1e-3;
 // Volume, as a fraction of a cell, that a face may carry with the fraction of the wrong side. A bed that a
 // step sets in motion outward starts with the fraction of the empty side: no volume leaves it, nothing but
 // its inertia resists, and one iteration "converges" with a face at 100 m/s.
 constexpr double turned_flux_that_matters = 1e-3;
-// A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope [Pa]:
-// where grains do not touch, a pressure error of volume_tolerance times this is meaningless (0.01 Pa).
-constexpr double slope_that_matters = 1e4;
+// A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope, in loads
+// of the bed: where grains do not touch, a pressure error of volume_tolerance times this is meaningless.
+constexpr double slope_that_matters = 10.0;
+// Least slope of the law that a cell is linearised with, in loads of the bed: keeps the step regular where there
+// are no grains.
+constexpr double least_slope = 1e-3;
 
 }  // namespace
 
@@ -30,6 +34,7 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
+      load_(scales_of(scene).pressure),
       solver_(grid.cells, communicator, grid.h),
       fraction_(scene.numerics.solid_flux),
       us_by_pc_(grid),
@@ -215,12 +220,12 @@ void CoupledPressure::linearise(const SolidPressureState& law) {
   const bool dilatancy = scene_.model.dilatancy_pressure;
   const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
   const Contact& contact = scene_.contact;
+  const double least = least_slope * load_;
   for_each(grid_.cells, [=, &contact](std::ptrdiff_t c) {
     const auto p =
         closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy, rest[c], packing[c]);
     pp[c] = p.value;
-    slope[c] =
-        implicit ? p.slope : closures::least_solid_pressure_slope;  // next to none: P_s stays at the point
+    slope[c] = implicit ? std::fmax(p.slope, least) : least;  // next to none: P_s stays at the point
   });
 }
 
@@ -242,14 +247,16 @@ double CoupledPressure::move_points(double dt, const SolidPressureState& law, co
   for (int d = 0; d < grid_.dim; ++d) k22[d] = k22_[d].data();
   const auto stride = grid_.cells.stride;
   const int dim = grid_.dim;
+  const double tension = tension_that_matters * load_, steep = slope_that_matters * load_,
+               least = least_slope * load_;
   return max_over(grid_.cells, grid_.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
     const auto p_at = [&](double f) {
       return closures::solid_pressure(f, theta[c], e[c], rho_s, contact, dilatancy, rest[c], packing[c]);
     };
     const double p_lin = p_old[c] + dp[c];
     auto there = p_at(std::fmax(f_new[c], 0.0));
-    const double p_felt = p_lin < -tension_that_matters ? p_lin : std::fmax(p_lin, 0.0);
-    const double off = std::fabs(there.value - p_felt) / std::fmax(there.slope, slope_that_matters);
+    const double p_felt = p_lin < -tension ? p_lin : std::fmax(p_lin, 0.0);
+    const double off = std::fabs(there.value - p_felt) / std::fmax(there.slope, steep);
     pf[c] = std::fmax(f_new[c], 0.0);
     if (off > tolerance) {
       double compliance = 0.0;
@@ -258,7 +265,7 @@ double CoupledPressure::move_points(double dt, const SolidPressureState& law, co
       there = p_at(pf[c]);
     }
     pp[c] = there.value;
-    slope[c] = there.slope;
+    slope[c] = std::fmax(there.slope, least);
     return off;
   });
 }

@@ -61,6 +61,7 @@ class CoupledPressure {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
+  double load_;  // scale of P_s [Pa], see scales.hpp
   linear::CoupledSolver solver_;
   SolidFractionFlux fraction_;
 

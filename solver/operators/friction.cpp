@@ -6,12 +6,14 @@
 #include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/contact_friction.hpp"
 #include "solver/operators/component_pointers.hpp"
+#include "solver/scene/scales.hpp"
 
 namespace granvof {
 namespace {
 
-constexpr double velocity_tolerance = 1e-9;  // [m/s]: residual over the face's own mass, drag included
-constexpr double slowest_sliding = 1e-7;     // [m/s] below which a Coulomb wall holds like a viscous one
+// Shares of the scene's velocity:
+constexpr double velocity_tolerance = 1e-9;  // residual over the face's own mass, drag included
+constexpr double slowest_sliding = 1e-7;     // below which a Coulomb wall holds like a viscous one
 constexpr double relative_tolerance = 1e-6;
 constexpr int most_iterations = 1000;  // a bed that locks in its first step took more than 300
 constexpr int smoothing = 2;
@@ -33,6 +35,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
+      velocity_(scales_of(scene).velocity),
       strain_(grid),
       mu_(grid),
       lambda_(grid),
@@ -145,6 +148,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
 // speed), and the bed's own for no-slip. The operator takes the wall's shear as 2 u_t / h.
 void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_strain) {
   const double* p = rheology.enduring_pressure.data();
+  const double slowest = slowest_sliding * velocity_;
   for (int d = 0; d < grid_.dim; ++d) {
     if (grid_.cells.periodic[d]) continue;
     for (int upper = 0; upper < 2; ++upper) {
@@ -174,7 +178,7 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
           const double along = v[i] - u_wall;
           const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
           const double speed = std::sqrt(along * along + across * across);
-          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, slowest_sliding));
+          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, slowest));
         });
       }
     }
@@ -363,7 +367,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
       {r[0], r[1], r[2]}, component_pointers(correction_, grid_.dim),
-      {std::fmax(velocity_tolerance, least_share), 0.0, most_iterations},
+      {std::fmax(velocity_tolerance * velocity_, least_share), 0.0, most_iterations},
       {inverse_mass_[0].data(), inverse_mass_[1].data(), grid_.dim == 3 ? inverse_mass_[2].data() : nullptr});
   for (int d = 0; d < grid_.dim; ++d) {
     const double *x = correction_[d].data(), *m = marked_[d].data();

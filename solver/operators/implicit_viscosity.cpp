@@ -3,20 +3,22 @@
 #include <algorithm>
 
 #include "solver/operators/edge_mean.hpp"
+#include "solver/scene/scales.hpp"
 
 namespace granvof {
 namespace {
 
 constexpr double relative_tolerance = 1e-5;   // of what implicit and explicit step differ by
-constexpr double velocity_tolerance = 1e-10;  // [m/s]
+constexpr double velocity_tolerance = 1e-10;  // of the scene's velocity
 constexpr int most_iterations = 100;
 
 }  // namespace
 
-ImplicitViscosity::ImplicitViscosity(const Grid& grid, const Boundary& boundary,
+ImplicitViscosity::ImplicitViscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
                                      const Communicator& communicator)
     : grid_(grid),
       boundary_(boundary),
+      least_velocity_(velocity_tolerance * scales_of(scene).velocity),
       open_(grid),
       edge_(grid),
       coefficient_(grid),
@@ -103,7 +105,7 @@ bool ImplicitViscosity::apply(double dt, const Field& viscosity, const FaceInert
     for (int e = 0; e < grid_.dim; ++e) faces.lower[e] = coefficient_[e].data();
     const linear::Report report = solver_[static_cast<std::size_t>(d)].solve(
         faces, diagonal_.data(), rhs, x,
-        {velocity_tolerance * heaviest, relative_tolerance, most_iterations});
+        {least_velocity_ * heaviest, relative_tolerance, most_iterations});
     converged = converged && report.converged;
     const double *b = beta[d].data(), *solid = inertia.solid[d].data(), *own = inertia.fluid[d].data();
     double* star = predicted_c[d].data();

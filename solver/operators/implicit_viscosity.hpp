@@ -24,7 +24,8 @@ namespace granvof {
 
 class ImplicitViscosity {
  public:
-  ImplicitViscosity(const Grid& grid, const Boundary& boundary, const Communicator& communicator);
+  ImplicitViscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                    const Communicator& communicator);
 
   // `viscosity`: f_c (mu_c + mu_t) of the cells [Pa s], ghosts filled; u_old: u_c^n. u_c and u_s change on
   // the open faces of the fluid and on those that hold grains; `predicted_c` gains what the force does to the
@@ -40,6 +41,7 @@ class ImplicitViscosity {
 
   const Grid& grid_;
   const Boundary& boundary_;
+  double least_velocity_;  // that the solve leaves [m/s]
   std::vector<linear::ScalarSolver> solver_;  // one a component
   Field open_;                                // 1 where the component is unknown or its ghost has no gradient
   Field edge_;                                // viscosity on the edges of one plane [Pa s]

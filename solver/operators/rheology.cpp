@@ -44,12 +44,14 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (sheared) boundary.fill_scalar(dilatancy_tangent);
   if (scene.model.agitation_drag) {
     double* beta = agitated_drag.data();
-    for_each(grid.cells, [=, &scene](std::ptrdiff_t c) {
-      beta[c] = 0.0;
-      if (p[c] <= 0.0) return;
-      const double drag =
-          closures::drag_coefficient(f[c], a[c], 0.0, scene.gas, scene.liquid, scene.solid.diameter);
-      beta[c] = closures::agitated_drag(drag, f[c], p[c], scene.solid.density, scene.solid.diameter);
+    closures::with_drag_law(scene.model.drag_law, [&](auto law) {
+      for_each(grid.cells, [=, &scene](std::ptrdiff_t c) {
+        beta[c] = 0.0;
+        if (p[c] <= 0.0) return;
+        const double drag =
+            closures::drag_coefficient(law, f[c], a[c], 0.0, scene.gas, scene.liquid, scene.solid.diameter);
+        beta[c] = closures::agitated_drag(drag, f[c], p[c], scene.solid.density, scene.solid.diameter);
+      });
     });
     boundary.fill_scalar(agitated_drag);
   }

@@ -1,4 +1,4 @@
-// The program granvof: run, check and keys. Exit codes: 0 done, 1 the run failed, 2 bad input.
+// The program granvof: run, check, restate and keys. Exit codes: 0 done, 1 the run failed, 2 bad input.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/restate.hpp"
 
 namespace {
 
@@ -23,6 +24,7 @@ struct Arguments {
   std::string case_file;
   std::vector<std::string> overrides;
   granvof::RunOptions run;
+  granvof::UnitFactors factors;
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -60,6 +62,14 @@ int check(const Arguments& arguments) {
   return 0;
 }
 
+int restate(const Arguments& arguments) {
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  const granvof::UnitFactors& f = arguments.factors;
+  fmt::print("# {}: mass x {}, length x {}, time x {}\n\n{}", scene.name, f.mass, f.length, f.time,
+             granvof::restated_case(scene, f));
+  return 0;
+}
+
 int keys() {
   fmt::print("{}", granvof::keys_reference());
   return 0;
@@ -71,7 +81,7 @@ std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
   return fmt::format(
       "granvof: {} (granvof --help says what is allowed)\n",
-      misspelt ? fmt::format("got {}, allowed: run, check, keys", left.front()) : error.what());
+      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what());
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -95,6 +105,15 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& check_command =
       *app.add_subcommand("check", "Check a case and print it in full, defaults filled in");
   add_case(check_command, arguments);
+  CLI::App& restate_command = *app.add_subcommand(
+      "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
+  add_case(restate_command, arguments);
+  const auto add_factor = [&](const char* name, double& factor, const char* help) {
+    restate_command.add_option(name, factor, help)->capture_default_str()->check(CLI::PositiveNumber);
+  };
+  add_factor("--mass", arguments.factors.mass, "Factor of every mass: 1000 for grams");
+  add_factor("--length", arguments.factors.length, "Factor of every length: 0.01 for a model of 1 to 100");
+  add_factor("--time", arguments.factors.time, "Factor of every time: 1000 for milliseconds");
   CLI::App& keys_command =
       *app.add_subcommand("keys", "Print the reference table of a case's keys (Markdown)");
 
@@ -106,6 +125,7 @@ int parse_and_run(int argc, char** argv) {
   arguments.run.out = out;
   if (keys_command.parsed()) return keys();
   if (check_command.parsed()) return check(arguments);
+  if (restate_command.parsed()) return restate(arguments);
   return run(arguments);
 }
 

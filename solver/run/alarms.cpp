@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/scene/scales.hpp"
+
 namespace granvof {
 namespace {
 
@@ -24,6 +26,9 @@ constexpr double unconverged_share = 0.01;     // of the friction solves
 constexpr double energy_that_stops = 10.0;     // in motion, of all that the run was given
 
 }  // namespace
+
+Alarms::Alarms(const Scene& scene, const EnergyTerms& start)
+    : scene_(scene), start_(start), least_energy_(least_turnover * scales_of(scene).energy) {}
 
 double energy_turnover(const EnergyTerms& start, const EnergyTerms& now) {
   return now.physical() + std::fabs(now.numerical_time) + std::fabs(now.numerical_momentum) +
@@ -49,7 +54,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
     watch(monitor, value, limit, s.time, meaning);
   };
   const EnergyTerms& e = s.energy;
-  const double turnover = energy_turnover(start_, e);
+  const double turnover = energy_turnover(start_, e) + least_energy_;
   look("solid volume", monitors.solid_volume_error(), largest_solid_volume_error, "grains are lost or made");
   look("liquid volume", monitors.liquid_volume_error(), largest_liquid_volume_error,
        "liquid is lost or made; numerics.volume_tolerance governs it");
@@ -61,7 +66,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
        "momentum or continuity is not solved well enough: the energy budget does not close");
   look("energy created", (e.dilatancy - std::min(e.numerical(), 0.0)) / turnover, largest_energy_created,
        "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
-  look("elastic start", start_.elastic / (start_.potential + least_turnover * start_.stored()),
+  look("elastic start", start_.elastic / (start_.potential + least_turnover * start_.stored() + least_energy_),
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
        "how far depends on contact.stiffness and on the first steps");
@@ -70,7 +75,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("friction solves", static_cast<double>(counts.unconverged_friction),
        std::max(1.0, unconverged_share * static_cast<double>(counts.steps)),
        "friction solves did not converge");
-  const double given = start_.stored() + e.walls + least_turnover;
+  const double given = start_.stored() + e.walls + least_energy_;
   const double in_motion = e.kinetic + e.granular;
   if (in_motion > energy_that_stops * given)
     return fmt::format("blow-up: {:.3g} J in motion at t = {:.6g} s, and the run was given {:.3g} J",

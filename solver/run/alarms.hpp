@@ -24,7 +24,7 @@ struct StepCounts {
 
 class Alarms {
  public:
-  Alarms(const Scene& scene, const EnergyTerms& start) : scene_(scene), start_(start) {}
+  Alarms(const Scene& scene, const EnergyTerms& start);
 
   // After an accepted step. Returns why the run must stop, or nothing.
   std::string check(const State& s, const Monitors& monitors, const StepCounts& counts);
@@ -37,6 +37,7 @@ class Alarms {
 
   const Scene& scene_;
   EnergyTerms start_;
+  double least_energy_;  // without gravity a tank at rest holds nothing to take shares of [J]
   std::vector<Warning> raised_;
 };
 

@@ -140,7 +140,7 @@ bool Run::advance() {
 
 void Run::write_due_output(bool force) {
   const Times& times = scene_.times;
-  if (now_.time < -1e-12) return;  // the column is still held
+  if (now_.time < -1e-12 * times.end) return;  // the column is still held
   const bool field_due = counters_.next_field < times.field_times.size() &&
                          now_.time >= times.field_times[counters_.next_field] - 1e-9 * times.end;
   const bool row_due = force || field_due || now_.time >= counters_.next_row - 1e-9 * times.end;

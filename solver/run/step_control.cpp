@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/closures/solid_pressure.hpp"
 
@@ -15,9 +16,9 @@ constexpr double first_share_of_dt_max = 0.1;
 constexpr double elastic_courant =
     0.5;  // of explicit contact pressure; leapfrog's limit is 1 / sqrt(dimensions)
 
-// Fastest elastic wave of the solid, sqrt(dP_s/df_s / rho_s) [m/s]: the fluid between the grains only slows
-// it.
-double elastic_speed(const Grid& grid, const Scene& scene, const State& s) {
+// In which the fastest elastic wave of the solid, of speed sqrt(dP_s/df_s / rho_s), crosses half a cell [s]: the
+// fluid between the grains only slows it. Infinite where no grains touch.
+double longest_elastic_step(const Grid& grid, const Scene& scene, const State& s) {
   const double *f = s.f_s.data(), *theta = s.theta.data(), *packing = s.packing.data();
   const double e = scene.solid.restitution, rho_s = scene.solid.density;
   const bool dilatancy = scene.model.dilatancy_pressure;
@@ -25,7 +26,9 @@ double elastic_speed(const Grid& grid, const Scene& scene, const State& s) {
   const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
     return closures::solid_pressure(f[c], theta[c], e, rho_s, contact, dilatancy, 0.0, packing[c]).slope;
   });
-  return std::sqrt(stiffest / rho_s);
+  if (stiffest <= 0.0) return std::numeric_limits<double>::infinity();
+  const double shortest = *std::min_element(grid.h.begin(), grid.h.begin() + grid.dim);
+  return elastic_courant * shortest / std::sqrt(stiffest / rho_s);
 }
 
 }  // namespace
@@ -48,8 +51,7 @@ double StepControl::next(const State& s) const {
   double dt = std::min(scene_.numerics.dt_max, growth * last_);
   if (rate > 0.0) dt = std::min(dt, scene_.numerics.cfl / rate);
   if (scene_.numerics.contact_pressure == ContactPressure::explicit_)
-    dt = std::min(dt, elastic_courant * *std::min_element(grid_.h.begin(), grid_.h.begin() + grid_.dim) /
-                          elastic_speed(grid_, scene_, s));
+    dt = std::min(dt, longest_elastic_step(grid_, scene_, s));
   if (scene_.gate) {
     const double risen = scene_.tank[1] / scene_.gate->speed;
     if (s.time < 0.0) {

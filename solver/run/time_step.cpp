@@ -29,7 +29,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       drag_(grid, scene),
       rheology_(grid),
       viscosity_(grid, scene),
-      implicit_viscosity_(grid, boundary, communicator),
+      implicit_viscosity_(grid, scene, boundary, communicator),
       friction_(grid, scene, boundary, communicator),
       pressure_(grid, scene, boundary, communicator),
       interface_(grid, scene, boundary),
@@ -54,7 +54,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
     rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
-    drag_.update(now.u_s, now.u_c, now.alpha, inertia_);
+    drag_.update(now.u_s, now.u_c, now.f_s, now.alpha, inertia_);
     stir_grains(now, dt);
   });
   cost_.time("predictor", [&] { predict(now, dt); });

@@ -158,7 +158,7 @@ std::vector<Key> bed_keys() {
 }
 
 std::vector<Key> time_keys() {
-  const std::string unit = "time.unit";
+  const std::string unit(unit_of_times);
   return {
       required(key("time.end", unit, positive, MEMBER(times.end), "Length of the run.")),
       choice("time.unit", Words<TimeUnit>{{"s", TimeUnit::second}, {"column", TimeUnit::column}},
@@ -176,8 +176,8 @@ std::vector<Key> time_keys() {
               "case brings forward drops the later ones."),
           "0 and the end"),
       key("output.field_interval", unit, positive, MEMBER(times.field_interval), "Instead of field_times."),
-      key("output.checkpoint_interval", "s", not_negative, MEMBER(times.checkpoint_interval),
-          "Wall-clock time between checkpoints; 0: at the end and on failure only."),
+      key("output.checkpoint_interval", "wall-clock s", not_negative, MEMBER(times.checkpoint_interval),
+          "Time between checkpoints; 0: at the end and on failure only."),
   };
 }
 
@@ -193,6 +193,16 @@ std::vector<Key> model_keys() {
                     "What is chosen beside the paper's model, see Presets below; single keys go on top."),
              Scope::label),
       key("model.drag", "", any, MEMBER(scene.model.drag), "Drag, (8) and (9)."),
+      // demvof's too: in both hashes
+      scoped(came_later(choice("model.drag_law",
+                               Words<DragLaw>{{"paper", DragLaw::paper},
+                                              {"di-felice", DragLaw::di_felice},
+                                              {"beetstra", DragLaw::beetstra},
+                                              {"tenneti", DragLaw::tenneti}},
+                               MEMBER(scene.model.drag_law),
+                               "Drag coefficient, of both codes: (8), (9) as printed, or Di Felice (1994), "
+                               "Beetstra et al. (2007), Tenneti et al. (2011), without their jump at f_s 0.2.")),
+             Scope::setup),
       key("model.les", "", any, MEMBER(scene.model.les), "Subgrid viscosity (10)."),
       choice("model.granular_temperature", temperatures, MEMBER(scene.model.granular_temperature), "Eq (7)."),
       key("model.pressure_work", "", any, MEMBER(scene.model.pressure_work), "-P_s^K div u_s in (7)."),

@@ -28,10 +28,12 @@ struct Table {
   std::string help;
 };
 
+inline constexpr std::string_view unit_of_times = "time.unit";  // unit of a key whose unit is another key
+
 struct Key {
   std::string name;       // "solid.friction"
   std::string type;       // "number", "integer", ...
-  std::string unit;       // "m", "-" for a pure number, "" where there is none
+  std::string unit;       // "m", as units.hpp reads it, or unit_of_times; "-" for a pure number, "" for none
   std::string allowed;    // "a number >= 0"
   std::string otherwise;  // what holds where the key is absent; empty: the key is required
   std::string help;

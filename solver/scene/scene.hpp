@@ -113,11 +113,15 @@ struct Gate {
 // Friction coefficient of (17): eta_s alone (the paper), or mu(I) from eta_s at rest to mu_2 at speed.
 enum class FrictionLaw { constant, inertial };
 
+// beta_c: (8), (9) as printed, or a law without a jump, see closures/drag_*.hpp.
+enum class DragLaw { paper, di_felice, beetstra, tenneti };
+
 enum class TemperatureModel { transported, algebraic, off };
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
 struct Model {
   bool drag = true;                                                       // eqs (8), (9)
+  DragLaw drag_law = DragLaw::paper;
   bool les = true;                                                        // eq (10)
   TemperatureModel granular_temperature = TemperatureModel::transported;  // eq (7)
   bool pressure_work = true;       // -P_s^K div u_s in (7), see correction 2 of the model

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -33,7 +34,7 @@ class Simulation {
 
   // One accepted step of at most `longest` [s], as run_case takes it. Fails the test where the step
   // collapses.
-  void advance(double longest = 1.0) {
+  void advance(double longest = std::numeric_limits<double>::infinity()) {
     double dt = std::min(control_.next(now), longest);
     for (;;) {
       last = step_.advance(now, dt, next_, extra ? &*extra : nullptr);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/closures/drag.hpp"
+
 namespace demvof {
 
 namespace {
@@ -138,8 +140,8 @@ void CoupledRun::renew_load() {
 
 void CoupledRun::renew_drag() {
   const FluidView& view = fluid_->view();
-  const PhaseProperties gas{fluid_settings_.gas_density, fluid_settings_.gas_viscosity};
-  const PhaseProperties liquid{fluid_settings_.liquid_density, fluid_settings_.liquid_viscosity};
+  const granvof::Fluid gas{fluid_settings_.gas_density, fluid_settings_.gas_viscosity};
+  const granvof::Fluid liquid{fluid_settings_.liquid_density, fluid_settings_.liquid_viscosity};
 
   std::vector<double> alpha(load_.coefficient.size()), f_s(load_.coefficient.size());
   mapping_.gather(view.alpha, 1, 0, alpha);
@@ -148,13 +150,16 @@ void CoupledRun::renew_drag() {
   // Of the grains: drag and slip Reynolds number are theirs, so that the drag per volume is that of the bed.
   const double k = settings_.coarse_graining, grains = k * k * k;
   const double diameter = beads_->settings().diameter / k;
-  for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
-    const double slip = std::hypot(load_.velocity[3 * bead] - velocity[3 * bead],
-                                   load_.velocity[3 * bead + 1] - velocity[3 * bead + 1],
-                                   load_.velocity[3 * bead + 2] - velocity[3 * bead + 2]);
-    load_.coefficient[bead] =
-        grains * bead_drag(f_s[bead], std::clamp(alpha[bead], 0.0, 1.0), slip, gas, liquid, diameter);
-  }
+  granvof::closures::with_drag_law(settings_.drag_law, [&](auto law) {
+    for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
+      const double slip = std::hypot(load_.velocity[3 * bead] - velocity[3 * bead],
+                                     load_.velocity[3 * bead + 1] - velocity[3 * bead + 1],
+                                     load_.velocity[3 * bead + 2] - velocity[3 * bead + 2]);
+      load_.coefficient[bead] =
+          grains * granvof::closures::drag_on_grain(law, f_s[bead], std::clamp(alpha[bead], 0.0, 1.0), slip,
+                                                    gas, liquid, diameter);
+    }
+  });
 }
 
 void CoupledRun::predict_pressure_force() {

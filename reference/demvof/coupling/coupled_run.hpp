@@ -12,15 +12,16 @@
 #include <vector>
 
 #include "reference/demvof/beads/bead_engine.hpp"
-#include "reference/demvof/coupling/drag_law.hpp"
 #include "reference/demvof/coupling/mapping.hpp"
 #include "reference/demvof/fluid/fluid.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace demvof {
 
 struct CouplingSettings {
   double fluid_dt = 2e-4;  // longest fluid step [s]; shortened where the liquid would move half a cell
   bool drag = true;        // false: pressure gradient alone
+  granvof::DragLaw drag_law = granvof::DragLaw::paper;  // the continuum's closure, see closures/drag.hpp
   // Bead's over grain's diameter [-], >= 1: a bead of diameter k d stands for k^3 grains of diameter d and
   // has the drag of them all.
   double coarse_graining = 1.0;

@@ -146,6 +146,7 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   CouplingSettings coupling;
   coupling.fluid_dt = scene.reference->fluid_dt;
   coupling.drag = scene.model.drag;
+  coupling.drag_law = scene.model.drag_law;
   coupling.coarse_graining = scene.reference->coarse_graining;
   coupling.predict_pressure = scene.solid.density < 1.5 * scene.liquid.density;
   if (scene.gate) coupling.closed_gate = gate_face(gridded);

@@ -87,17 +87,21 @@ TEST(SolidPressure, SlopeIsTheDerivative) {
       return solid_pressure(f, theta, e, rho_s, paper, dilatancy).value;
     };
     for (const double f : {0.1, 0.3, 0.5, 0.56, 0.575, 0.59, 0.6, 0.61, 0.625, 0.64}) {
-      const double expected = std::max(test::derivative(pressure, f, 1e-5), least_solid_pressure_slope);
+      const double expected = test::derivative(pressure, f, 1e-5);
       EXPECT_NEAR(solid_pressure(f, theta, e, rho_s, paper, dilatancy).slope, expected, 1e-5 * expected)
           << f << (dilatancy ? " with" : " without") << " dilatancy pressure";
     }
   }
 }
 
-TEST(SolidPressure, SlopeNeverVanishes) {
-  EXPECT_EQ(solid_pressure(0.0, 0.0, e, rho_s, paper, true).value, 0.0);
-  for (double f = 0.0; f < 0.7; f += 0.01)
-    EXPECT_GE(solid_pressure(f, 0.0, e, rho_s, paper, true).slope, least_solid_pressure_slope);
+TEST(SolidPressure, OfColdGrainsApartIsNone) {
+  for (double f = 0.0; f < 0.7; f += 0.01) {
+    const PressureAndSlope p = solid_pressure(f, 0.0, e, rho_s, paper, true);
+    const bool touching = f > paper.solid_fraction_min;
+    EXPECT_EQ(p.value > 0.0, touching) << f;
+    EXPECT_EQ(p.slope > 0.0, touching) << f;
+    EXPECT_GE(p.slope, 0.0) << f;
+  }
 }
 
 TEST(SolidPressure, IsContinuousAndDoesNotFall) {

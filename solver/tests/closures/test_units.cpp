@@ -47,7 +47,7 @@ Values evaluate(const Units& u) {
   const double f_s = 0.58;
   const double g0 = radial_distribution(f_s, contact.solid_fraction_max);
   const double enduring = enduring_pressure(f_s, theta, e, rho_s, contact, true);
-  return {.drag = drag_coefficient(0.2, 0.6, 0.3 * u.speed(), gas, liquid, d_s),
+  return {.drag = drag_coefficient(drag_paper, 0.2, 0.6, 0.3 * u.speed(), gas, liquid, d_s),
           .restitution = e,
           .eddy = eddy_viscosity(liquid.density, 2e-3 * u.m, 50.0 / (u.s * u.s)),
           .pressure = solid_pressure(f_s, theta, e, rho_s, contact, true).value,

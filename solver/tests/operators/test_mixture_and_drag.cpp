@@ -38,9 +38,10 @@ struct Dragged {
   Dragged(int dim, bool drag, double f_s, double alpha) : s(scene_of(dim, drag)), drag_(s.grid, s.scene) {
     FaceInertia inertia(s.grid);
     const Field alpha_cells = s.cells([=](const Vec3&) { return alpha; });
-    inertia.update(s.grid, s.scene, s.cells([=](const Vec3&) { return f_s; }), alpha_cells);
-    drag_.update(s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)), alpha_cells,
-                 inertia);
+    const Field f_s_cells = s.cells([=](const Vec3&) { return f_s; });
+    inertia.update(s.grid, s.scene, f_s_cells, alpha_cells);
+    drag_.update(s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)), f_s_cells,
+                 alpha_cells, inertia);
   }
   static Scene scene_of(int dim, bool drag) {
     Scene scene = unit_scene(dim, 4);
@@ -63,7 +64,7 @@ TEST(InterphaseDrag, UsesTheWholeSlipOfAUniformState) {
     for (double f_s : {0.57, 0.05})
       for (double alpha : {1.0, 0.0, 0.3}) {
         const Dragged d(dim, true, f_s, alpha);
-        const double beta = closures::drag_coefficient(f_s, alpha, slip, d.s.scene.gas, d.s.scene.liquid,
+        const double beta = closures::drag_coefficient(closures::drag_paper, f_s, alpha, slip, d.s.scene.gas, d.s.scene.liquid,
                                                        d.s.scene.solid.diameter);
         ASSERT_GT(beta, 0.0);
         d.expect(beta);
@@ -82,8 +83,37 @@ TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
   FaceInertia inertia(d.s.grid);
   const Field alpha(d.s.grid, 1.0);
   inertia.update(d.s.grid, d.s.scene, Field(d.s.grid), alpha);
-  d.drag_.update(FaceField(d.s.grid), FaceField(d.s.grid), alpha, inertia);
+  d.drag_.update(FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia);
   d.expect(0.0);
+}
+
+// Clear fluid over grains at the face between two cells. With the second-order flux grains that fall are
+// hindered as those below them, grains that rise as the lone ones above; the paper's scheme takes the mean.
+TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
+  const double below = 0.4, mean = 0.2;
+  const auto beta_at = [&](SolidFlux flux, double slip) {
+    Scene scene = unit_scene(2, 4);
+    scene.numerics.solid_flux = flux;
+    const Tank s(scene);
+    const Field alpha(s.grid, 1.0), f_s = s.cells([=](const Vec3& x) { return x[1] < 0.5 ? below : 0.0; });
+    FaceInertia inertia(s.grid);
+    inertia.update(s.grid, s.scene, f_s, alpha);
+    InterphaseDrag drag(s.grid, s.scene);
+    drag.update(s.faces(constant(0.0, 0.0, 0.0)), s.faces(constant(0.0, slip, 0.0)), f_s, alpha, inertia);
+    return drag.beta()[1][s.grid.cells.index(1, 2, 0)];
+  };
+  const Tank s(unit_scene(2, 4));
+  const auto law = [&](double f) {
+    return closures::drag_paper(f, 0.3, s.scene.liquid, s.scene.solid.diameter) / (f * (1.0 - f)) * mean *
+           (1.0 - mean);
+  };
+  EXPECT_NEAR(beta_at(SolidFlux::upwind, 0.3), law(mean), 1e-12 * law(mean));
+  for (const SolidFlux flux : {SolidFlux::limited, SolidFlux::compressive}) {
+    EXPECT_NEAR(beta_at(flux, 0.3), law(below), 1e-12 * law(below));
+    EXPECT_NEAR(beta_at(flux, -0.3), law(1e-12), 1e-9 * law(1e-12));
+    EXPECT_NEAR(beta_at(flux, 0.0), closures::drag_paper(mean, 0.0, s.scene.liquid, s.scene.solid.diameter),
+                1e-9 * law(mean));
+  }
 }
 
 }  // namespace

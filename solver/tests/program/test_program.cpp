@@ -60,7 +60,7 @@ TEST_F(Program, PrintsVersionAndHelp) {
   EXPECT_EQ(version.out.rfind("granvof ", 0), 0U) << version.out;
   const Outcome help = granvof("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* word : {"run", "check", "keys"}) EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  for (const char* word : {"run", "check", "restate", "keys"}) EXPECT_NE(help.out.find(word), std::string::npos) << word;
 }
 
 TEST_F(Program, ChecksACase) {
@@ -69,6 +69,18 @@ TEST_F(Program, ChecksACase) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out.rfind("# s1: 80 x 24 x 1 cells", 0), 0U) << outcome.out;
   EXPECT_NE(outcome.out.find("\nend = 2\n"), std::string::npos);
+}
+
+TEST_F(Program, RestatesACase) {
+  const Outcome outcome = granvof("restate " + shipped("s1") + " --mass 2 --length 0.25 --time 0.5");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out.rfind("# s1: mass x 2, length x 0.25, time x 0.5\n", 0), 0U) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nsize = [0.1, 0.03]\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\ndensity = 320000\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nend = 10\n"), std::string::npos) << outcome.out;
+  expect_refused("restate " + shipped("s1") + " --length 0", "--length");
+  expect_refused("restate " + shipped("s1") + " --length long", "--length");
 }
 
 TEST_F(Program, TakesListsAndInlineTablesAsOverrides) {

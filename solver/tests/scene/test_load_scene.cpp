@@ -176,6 +176,15 @@ TEST(Hash, AKeyThatCameAfterTheRecordsCountsOnlyAwayFromItsDefault) {
   EXPECT_NE(coarse.reference_hash, small().reference_hash);
 }
 
+// demvof takes its drag from it.
+TEST(Hash, OfTheReferenceKnowsTheDragLaw) {
+  const Scene named = small({"model.drag_law=paper"}), other = small({"model.drag_law=di-felice"});
+  EXPECT_EQ(named.hash, small().hash);
+  EXPECT_EQ(named.reference_hash, small().reference_hash);
+  EXPECT_NE(other.hash, small().hash);
+  EXPECT_NE(other.reference_hash, small().reference_hash);
+}
+
 TEST(Hash, OfTheReferenceIgnoresTheContinuumsModel) {
   for (const char* change : {"model.drag=false", "contact.stiffness=1e7"}) {
     EXPECT_NE(small({change}).hash, small().hash) << change;

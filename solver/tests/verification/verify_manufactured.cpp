@@ -101,7 +101,7 @@ class Manufactured {
   // Force of the grains on the liquid [N/m3].
   double drag(const Point& x, int d) const {
     const double wx = u_s(x, 0) - u_c(x, 0), wy = u_s(x, 1) - u_c(x, 1);
-    return closures::drag_single_fluid(f_s(x), std::hypot(wx, wy), scene_.liquid, scene_.solid.diameter) *
+    return closures::drag_paper(f_s(x), std::hypot(wx, wy), scene_.liquid, scene_.solid.diameter) *
            (d == 0 ? wx : wy);
   }
 
