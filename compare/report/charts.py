@@ -307,10 +307,11 @@ def keep(options, beside):
 
 
 def shrink(source, target):
-    """A copy of 900 pixels in 256 colours."""
+    """A copy of at most 900 pixels in 256 colours."""
     from PIL import Image
     image = Image.open(source).convert("RGB")
-    image = image.resize((900, round(image.height * 900 / image.width)), Image.LANCZOS)
+    width = min(image.width, 900)
+    image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
     image.quantize(256, method=Image.Quantize.FASTOCTREE).save(target, optimize=True)  # keeps the colours of the lines
 
 

@@ -2,7 +2,8 @@
 """How far to trust the program: the table of README.md and those of docs/results.md, from kept results of `make verify`.
 
 compare/report/trust_table.py                          write the tables from what is kept
-compare/report/trust_table.py --verify out/verify      keep these results, then write the tables: after `make verify`
+compare/report/trust_table.py --verify out/verify      keep these results, then write the tables, and the README's picture if
+                                                       its figure is there: after `make verify`
 compare/report/trust_table.py --check [--verify DIR]   write nothing; exit code 1 if a table is not what is kept, or with
                                                        --verify if the results in DIR are not what is kept
 """
@@ -18,7 +19,7 @@ from statistics import mean
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "compare"))
 
-from report import kept_results  # noqa: E402
+from report import charts, kept_results  # noqa: E402
 
 AGREES = ("agrees", "within band")
 FLOATING = tuple(f"float-full-r{ratio}" for ratio in ("02", "04", "06", "08"))
@@ -240,6 +241,9 @@ def main(arguments):
         return 2
     if verified:
         kept_results.write(path, kept)
+        figure = options.verify / "plots/run-out.png"
+        if figure.exists():
+            charts.shrink(figure, options.root / "compare/report/picture.png")
     for file, text in texts.items():
         (options.root / file).write_text(text, encoding="utf-8")
     return 0

@@ -4,6 +4,7 @@ import json
 import tomllib
 
 import pytest
+from PIL import Image
 from report import kept_results, trust_table
 from report.trust_table import LINES, WORST
 
@@ -93,6 +94,14 @@ def test_a_shorter_comparison_leaves_what_was_not_due(root, rows):
 def test_cost_rows_are_not_kept(root, rows):
     keep(root, verified([*rows, rows[0] | {"id": "cost", "metric": "core_seconds", "unit": "core-s"}]))
     assert "cost" not in [row["id"] for row in kept_results.read(root / "compare/kept/verify/results.json")["rows"]]
+
+
+def test_the_picture_is_that_of_the_results(root, rows):
+    (root / "compare/report").mkdir(parents=True)
+    (root / "verify/plots").mkdir(parents=True)
+    Image.new("RGB", (1800, 600), "red").save(root / "verify/plots/run-out.png")
+    keep(root, verified(rows))
+    assert Image.open(root / "compare/report/picture.png").size == (900, 300)
 
 
 def test_bad_input_is_two(root, capsys):
