@@ -68,9 +68,12 @@ struct Check {
 
 // A run the table needs: `granvof run <case_file> --set ... --out <runs>/<id>`.
 struct PlannedRun {
-  std::string id;                // directory below out/runs
-  std::string case_name;         // file stem in cases/
-  std::vector<std::string> set;  // overrides "key=value"
+  std::string id;                                    // directory below out/runs
+  std::string case_name;                             // file stem in cases/
+  std::vector<std::string> set;                      // overrides "key=value"
+  std::optional<std::string> beside = std::nullopt;  // id of a run whose checks are made of this one too, but
+                                                     // for those of kind regression
+  Frequency frequency = Frequency::short_;           // of a run beside another: its checks are due no oftener
 };
 
 struct Table {

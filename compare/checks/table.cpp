@@ -1,5 +1,6 @@
 #include "compare/checks/table.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -20,12 +21,23 @@ std::string names_of(const Entries& entries) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+Frequency read_frequency(const TomlEntry& entry) {
+  return entry.one_of("frequency",
+                      {Frequency::short_, Frequency::verify, Frequency::nightly, Frequency::weekly});
+}
+
 PlannedRun read_run(const TomlEntry& entry) {
-  entry.allow_only({"id", "case", "set"});
+  entry.allow_only({"id", "case", "set", "beside", "frequency"});
   PlannedRun run;
   run.id = entry.text("id");
-  run.case_name = entry.has("case") ? entry.text("case") : run.id;
   if (entry.has("set")) run.set = entry.assignments("set");
+  if (entry.has("beside")) run.beside = entry.text("beside");
+  if (run.beside && run.set.empty()) entry.fail("beside", "without 'set' it is the run it stands beside");
+  run.case_name = entry.has("case") ? entry.text("case") : run.beside.value_or(run.id);
+  if (entry.has("frequency")) {
+    if (!run.beside) entry.fail("frequency", "only a run beside another has one: its checks are that run's");
+    run.frequency = read_frequency(entry);
+  }
   return run;
 }
 
@@ -113,35 +125,98 @@ std::string id_of(const Check& check) {
   return id + fmt::format(".{}", name_of(check.reference.kind));
 }
 
-Check row(Check check, const Reference& reference, std::optional<double> at, const std::string& run) {
-  check.run = run;
+// The record of a row's run is that of its case.
+Check row(Check check, const Reference& reference, std::optional<double> at, const PlannedRun& run) {
+  check.run = run.id;
   check.parameters.at = at;
   check.reference = reference;
   if (!reference.value && !reference.formula && !reference.record) {
-    check.reference.record = run;
-    if (reference.source.empty()) check.reference.source = source_of_record(run);
+    check.reference.record = run.case_name;
+    if (reference.source.empty()) check.reference.source = source_of_record(run.case_name);
   }
   check.id = id_of(check);
   return check;
 }
 
-// One for each of the check's instants; none where it is not expected to fail.
-std::vector<ExpectedFailure> read_expected_failures(const TomlEntry& check, std::size_t instants) {
-  if (!check.has("expected_failure")) return {};
-  const TomlEntry entry = check.entry("expected_failure");
-  entry.allow_only({"reason", "distance"});
-  std::vector<double> distances = entry.non_negatives("distance");
-  if (distances.size() == 1) distances.resize(instants, distances.front());
-  if (distances.size() != instants)
+// An expected failure of some of a check's runs, at some of its instants.
+struct Expected {
+  std::string reason;
+  std::vector<std::string> runs;
+  std::vector<std::optional<double>> instants;
+  std::vector<double> distances;  // one for each instant
+
+  std::optional<ExpectedFailure> of(const std::string& run, std::optional<double> at) const {
+    if (std::ranges::find(runs, run) == runs.end()) return std::nullopt;
+    const auto found = std::ranges::find(instants, at);
+    if (found == instants.end()) return std::nullopt;
+    return ExpectedFailure{reason, distances[static_cast<std::size_t>(found - instants.begin())]};
+  }
+};
+
+// Without `run` those that the check names, without `at` all of its instants.
+Expected read_expected(const TomlEntry& entry, const std::vector<std::string>& runs,
+                       const std::vector<std::optional<double>>& instants) {
+  entry.allow_only({"reason", "distance", "run", "at"});
+  Expected expected{entry.text("reason"), runs, instants, entry.non_negatives("distance")};
+  if (entry.has("run")) expected.runs = entry.texts("run");
+  if (entry.has("at")) {
+    const std::vector<double> given = entry.numbers("at");
+    expected.instants.assign(given.begin(), given.end());
+    for (const auto& at : expected.instants)
+      if (std::ranges::find(instants, at) == instants.end())
+        entry.fail("at", fmt::format("{} given, which is no instant of the check", *at));
+  }
+  const std::size_t count = expected.instants.size();
+  if (expected.distances.size() == 1) expected.distances.resize(count, expected.distances.front());
+  if (expected.distances.size() != count)
     entry.fail("distance", fmt::format("{} numbers given; allowed: one, or as many as 'at' has ({})",
-                                       distances.size(), instants));
-  std::vector<ExpectedFailure> failures(instants, {entry.text("reason"), 0.0});
-  for (std::size_t i = 0; i < instants; ++i) failures[i].distance = distances[i];
+                                       expected.distances.size(), count));
+  return expected;
+}
+
+const PlannedRun& find_run(const TomlEntry& entry, std::string_view key, const std::string& id,
+                           const std::vector<PlannedRun>& runs) {
+  const auto found = std::ranges::find(runs, id, &PlannedRun::id);
+  if (found != runs.end()) return *found;
+  std::set<std::string_view> there;
+  for (const PlannedRun& run : runs) there.insert(run.id);
+  entry.fail(key, fmt::format("no [[run]] has the id '{}'; there are: {}", id, fmt::join(there, ", ")));
+}
+
+// The run beside `id` that is made as `like` is.
+std::string beside(const TomlEntry& entry, const std::string& id, const PlannedRun& like,
+                   const std::vector<PlannedRun>& runs) {
+  for (const PlannedRun& run : runs)
+    if (run.beside == id && run.set == like.set) return run.id;
+  entry.fail("against", fmt::format("no [[run]] beside '{}' has the 'set' of '{}'", id, like.id));
+}
+
+// Those that a check names, and those beside them.
+std::vector<const PlannedRun*> runs_of(const TomlEntry& entry, const std::vector<std::string>& named,
+                                       const std::vector<PlannedRun>& runs) {
+  std::vector<const PlannedRun*> made;
+  for (const std::string& id : named) made.push_back(&find_run(entry, "run", id, runs));
+  for (const PlannedRun& run : runs)
+    if (run.beside && std::ranges::find(named, *run.beside) != named.end()) made.push_back(&run);
+  return made;
+}
+
+std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<std::string>& named,
+                                    const std::vector<const PlannedRun*>& made,
+                                    const std::vector<std::optional<double>>& instants) {
+  std::vector<Expected> failures;
+  if (!check.has("expected_failure")) return failures;
+  for (const TomlEntry& entry : check.entry_or_entries("expected_failure")) {
+    failures.push_back(read_expected(entry, named, instants));
+    for (const std::string& id : failures.back().runs)
+      if (std::ranges::none_of(made, [&](const PlannedRun* run) { return run->id == id; }))
+        entry.fail("run", fmt::format("'{}' given, which is no run of the check", id));
+  }
   return failures;
 }
 
-// A row for each of its references, instants and runs.
-std::vector<Check> read_check(const TomlEntry& entry) {
+// A row for each of its references, instants and runs, and of the runs beside those.
+std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedRun>& runs) {
   entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
                     "reference", "relation", "tolerance", "asserted", "frequency", "expected_failure",
                     "label"});
@@ -156,24 +231,43 @@ std::vector<Check> read_check(const TomlEntry& entry) {
   if (entry.has("relation"))
     check.relation = entry.one_of("relation", {Relation::equal, Relation::at_most, Relation::at_least});
   if (entry.has("asserted")) check.asserted = entry.truth("asserted");
-  check.frequency = entry.one_of(
-      "frequency", {Frequency::short_, Frequency::verify, Frequency::nightly, Frequency::weekly});
+  check.frequency = read_frequency(entry);
   if (entry.has("label")) check.label = entry.text("label");
   std::vector<std::optional<double>> instants{std::nullopt};
   if (metric->needs.at) {
     const std::vector<double> given = entry.numbers("at");
     instants.assign(given.begin(), given.end());
   }
-  const auto failures = read_expected_failures(entry, instants.size());
+  const std::vector<std::string> named = entry.texts("run");
+  const std::vector<const PlannedRun*> made = runs_of(entry, named, runs);
+  if (check.parameters.against) find_run(entry, "against", *check.parameters.against, runs);
+  const std::vector<Expected> failures = read_failures(entry, named, made, instants);
   if (!failures.empty() && !check.asserted)
     entry.fail("expected_failure", "a row that is not asserted cannot fail");
   std::vector<Check> checks;
   for (const TomlEntry& reference : entry.entry_or_entries("reference")) {
     const Reference read = read_reference(reference, *metric);
-    for (std::size_t i = 0; i < instants.size(); ++i) {
-      if (!failures.empty()) check.expected_failure = failures[i];
-      for (const std::string& run : entry.texts("run")) checks.push_back(row(check, read, instants[i], run));
-    }
+    for (const auto& at : instants)
+      for (const PlannedRun* run : made) {
+        // What this code gave before is of the run itself.
+        const bool named_run = std::ranges::find(named, run->id) != named.end();
+        if (!named_run && read.kind == ReferenceKind::regression) continue;
+        Check shared = check;
+        if (!named_run) {
+          shared.frequency = std::max(check.frequency, run->frequency);
+          if (check.parameters.against)
+            shared.parameters.against = beside(entry, *check.parameters.against, *run, runs);
+        }
+        Check one = row(std::move(shared), read, at, *run);
+        for (const Expected& failure : failures) {
+          const auto expected = failure.of(run->id, at);
+          if (!expected) continue;
+          if (one.expected_failure)
+            entry.fail("expected_failure", fmt::format("'{}' is in two of them", one.id));
+          one.expected_failure = expected;
+        }
+        checks.push_back(std::move(one));
+      }
   }
   return checks;
 }
@@ -188,14 +282,10 @@ Table read_root(const toml::table& root, std::string_view name) {
     if (!runs.insert(table.runs.back().id).second)
       entry.fail("id", fmt::format("'{}' is given twice", table.runs.back().id));
   }
-  const auto require_run = [&](const TomlEntry& entry, std::string_view key, const std::string& run) {
-    if (!runs.contains(run))
-      entry.fail(key, fmt::format("no [[run]] has the id '{}'; there are: {}", run, fmt::join(runs, ", ")));
-  };
+  for (const TomlEntry& entry : top.entries("run"))
+    if (entry.has("beside")) find_run(entry, "beside", entry.text("beside"), table.runs);
   for (const TomlEntry& entry : top.entries("check"))
-    for (Check& check : read_check(entry)) {
-      require_run(entry, "run", check.run);
-      if (check.parameters.against) require_run(entry, "against", *check.parameters.against);
+    for (Check& check : read_check(entry, table.runs)) {
       if (!checks.insert(check.id).second)
         entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
       table.checks.push_back(std::move(check));

@@ -12,6 +12,7 @@
 #include "compare/input/records.hpp"
 #include "compare/output/write.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/presets.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -122,9 +123,34 @@ bool Ablation::dispensable() const {
          std::none_of(effects.begin(), effects.end(), [](const Effect& e) { return e.beyond; });
 }
 
+std::vector<Part> parts_for(const std::vector<Part>& parts, const Scene& scene) {
+  std::vector<Part> all;
+  for (const Part& part : parts) {
+    if (part.form != Form::each_choice) {
+      all.push_back(part);
+      continue;
+    }
+    for (const case_file::ChoiceOfScene& choice : case_file::choices_of(scene))
+      for (std::string value : choice.others) {
+        std::erase(value, '"');
+        const std::string key = choice.key.substr(choice.key.find('.') + 1);
+        all.push_back({key + " = " + value, {choice.key + "=" + value}, std::nullopt, choice.reason});
+      }
+  }
+  return all;
+}
+
 std::vector<std::string> overrides_of(const Part& part, const Scene& scene) {
   if (!part.form) return part.set;
-  return *part.form == Form::rigid_lid ? rigid_lid(scene) : two_dimensions(scene);
+  switch (*part.form) {
+    case Form::rigid_lid:
+      return rigid_lid(scene);
+    case Form::two_dimensions:
+      return two_dimensions(scene);
+    case Form::each_choice:
+      break;
+  }
+  throw std::invalid_argument("it stands for several parts");
 }
 
 std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene) {
@@ -155,7 +181,7 @@ AblateReport ablate(const fs::path& case_file, const std::vector<std::string>& s
                               reference_of(check, *full.run, records)});
   report.rows.push_back(row_of("full model", full, report.metrics));
   report.rows.back().set = set;
-  for (const Part& part : parts) {
+  for (const Part& part : parts_for(parts, scene)) {
     Ablation row;
     std::vector<std::string> all = set;
     try {

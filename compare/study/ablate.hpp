@@ -51,6 +51,10 @@ struct AblateReport {
   std::vector<Ablation> rows;  // the first is the full model
 };
 
+// `parts` with each choice beside the paper's model (solver/scene/presets.cpp) as a part of its own: as
+// another preset has it than the scene.
+std::vector<Part> parts_for(const std::vector<Part>& parts, const Scene& scene);
+
 // The overrides of a part for this scene. Throws std::invalid_argument where the scene has no such form.
 std::vector<std::string> overrides_of(const Part& part, const Scene& scene);
 
@@ -58,8 +62,9 @@ std::vector<std::string> overrides_of(const Part& part, const Scene& scene);
 // a second run.
 std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene);
 
-// Runs the case with `set`, then with each part removed. References are taken from the rows, those recorded
-// from `records`. Throws std::runtime_error where the full model does not run or `checks` is empty.
+// Runs the case with `set`, then with each of parts_for() removed or put in. References are taken from the
+// rows, those recorded from `records`. Throws std::runtime_error where the full model does not run or
+// `checks` is empty.
 AblateReport ablate(const std::filesystem::path& case_file, const std::vector<std::string>& set,
                     const std::vector<Part>& parts, const std::vector<Check>& checks,
                     const std::filesystem::path& records, Runner& runner);

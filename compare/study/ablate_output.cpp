@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -24,16 +26,21 @@ std::string state_of(const Ablation& row, const AblateReport& report) {
   return fmt::format("changes {}", fmt::join(changed, ", "));
 }
 
+// Of a column of the table.
+std::size_t width_of(const Ablation& row) {
+  return std::max<std::size_t>(17, row.name.size());
+}
+
 }  // namespace
 
 std::string ablate_text(const AblateReport& report) {
   const Ablation& full = report.rows.front();
-  std::string text = fmt::format("{} {}: each part of the model removed or changed in turn ({})\n",
+  std::string text = fmt::format("{} {}: each part of the model removed, put in or changed in turn ({})\n",
                                  report.scene, fmt::join(report.set, " "), report.version);
   text += fmt::format("  {:<26} {:>12} {:>12} {:>10} {:<6}", "metric", "reference", "full model", "tolerance",
                       "unit");
   for (std::size_t n = 1; n < report.rows.size(); ++n)
-    if (report.rows[n].applies) text += fmt::format(" {:>17}", report.rows[n].name);
+    if (report.rows[n].applies) text += fmt::format(" {:>{}}", report.rows[n].name, width_of(report.rows[n]));
   for (std::size_t i = 0; i < report.metrics.size(); ++i) {
     const AblatedMetric& metric = report.metrics[i];
     const auto number = [](const std::optional<double>& v) { return v ? fmt::format("{:.5g}", *v) : "-"; };
@@ -47,7 +54,7 @@ std::string ablate_text(const AblateReport& report) {
       if (!row.effects.empty())
         cell = row.effects[i].change ? fmt::format("{:+.3g}", *row.effects[i].change) : "-";
       if (!row.effects.empty() && row.effects[i].beyond) cell += " *";
-      text += fmt::format(" {:>17}", cell);
+      text += fmt::format(" {:>{}}", cell, width_of(row));
     }
   }
   text +=
@@ -55,8 +62,9 @@ std::string ablate_text(const AblateReport& report) {
   for (std::size_t n = 1; n < report.rows.size(); ++n)
     if (report.rows[n].applies)
       text += fmt::format(
-          " {:>17}",
-          full.cost > 0.0 ? fmt::format("{:+.0f} %", 100.0 * (report.rows[n].cost / full.cost - 1.0)) : "-");
+          " {:>{}}",
+          full.cost > 0.0 ? fmt::format("{:+.0f} %", 100.0 * (report.rows[n].cost / full.cost - 1.0)) : "-",
+          width_of(report.rows[n]));
   text += "\n  * beyond the tolerance; changes are against the full model\n";
   for (std::size_t n = 1; n < report.rows.size(); ++n)
     text += fmt::format("  {:<18} {}\n", report.rows[n].name, state_of(report.rows[n], report));

@@ -144,7 +144,10 @@ AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& m
   std::vector<Method> tried = methods;
   if (report.target.kind == kind_of_own)
     std::erase_if(tried, [](const Method& method) { return method.other_model; });
-  report.advice = advise(input.cells, tried, parts, input.tolerance, bench);
+  // What a choice beside the paper's model is worth is tried by methods that make it.
+  std::vector<Part> removable = parts;
+  std::erase_if(removable, [](const Part& part) { return part.form == Form::each_choice; });
+  report.advice = advise(input.cells, tried, removable, input.tolerance, bench);
   if (!report.advice.chosen) return report;
   report.set = bench.set_of(report.advice.chosen->configuration);
   const Outcome chosen = bench.outcome(report.advice.chosen->configuration);

@@ -46,7 +46,8 @@ Part read_part(const TomlEntry& entry) {
   entry.allow_only({"name", "set", "form", "about"});
   auto part = read_named<Part>(entry);
   if (entry.has("set") == entry.has("form")) entry.fail("", "give one of 'set' and 'form'");
-  if (entry.has("form")) part.form = entry.one_of("form", {Form::rigid_lid, Form::two_dimensions});
+  if (entry.has("form"))
+    part.form = entry.one_of("form", {Form::rigid_lid, Form::two_dimensions, Form::each_choice});
   return part;
 }
 
@@ -148,7 +149,15 @@ Study read_root(const toml::table& root, std::string_view name) {
 }  // namespace
 
 std::string_view name_of(Form form) {
-  return form == Form::rigid_lid ? "rigid lid" : "two dimensions";
+  switch (form) {
+    case Form::rigid_lid:
+      return "rigid lid";
+    case Form::two_dimensions:
+      return "two dimensions";
+    case Form::each_choice:
+      return "each choice";
+  }
+  return "each choice";
 }
 
 std::string_view name_of(Against against) {

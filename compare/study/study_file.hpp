@@ -30,8 +30,8 @@ struct Other {
   std::string line;  // the points of one line are joined; empty: a point by itself
 };
 
-// Overrides that depend on the scene.
-enum class Form { rigid_lid, two_dimensions };
+// Overrides that depend on the scene; `each_choice` stands for a part a choice beside the paper's model.
+enum class Form { rigid_lid, two_dimensions, each_choice };
 
 struct Part {
   std::string name;

@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"name = \"second\"", "name = \"first\"", "'first' is given twice"},
         Wrong{"set = [\"model.les=false\"]", "set = [\"model.les\"]", "expected key=value"},
         Wrong{"set = [\"model.les=false\"]", "", "give one of 'set' and 'form'"},
-        Wrong{"form = \"rigid lid\"", "form = \"lid\"", "allowed: rigid lid, two dimensions"},
+        Wrong{"form = \"rigid lid\"", "form = \"lid\"", "allowed: rigid lid, two dimensions, each choice"},
         Wrong{"grids = [0.005, 0.0025, 0.00125]", "grids = [0.0025, 0.005]", "from large to small"},
         Wrong{"grids = [0.005, 0.0025, 0.00125]", "grids = [0.005, -1]", "allowed: more than 0"},
         Wrong{"against = \"DEM\"", "against = \"dem\"", "allowed: finest, DEM, theory, published"},

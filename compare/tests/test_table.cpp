@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <set>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -80,6 +83,121 @@ expected_failure = { reason = "why", distance = )toml" +
   };
   EXPECT_EQ(distances("[0.2, 0.3]"), (std::vector{0.2, 0.2, 0.3, 0.3}));  // both runs at 2, both at 5
   EXPECT_EQ(distances("0.4"), (std::vector{0.4, 0.4, 0.4, 0.4}));
+}
+
+const std::string beside = R"toml([[run]]
+id = "s1"
+
+[[run]]
+id = "s2"
+
+[[run]]
+id = "s1-other"
+beside = "s1"
+set = ["model.preset=sourced"]
+
+[[run]]
+id = "s2-other"
+beside = "s2"
+set = ["model.preset=sourced"]
+frequency = "nightly"
+
+[[check]]
+run = ["s1", "s2"]
+metric = "run_out"
+at = [2, 5]
+reference = [{ kind = "DEM" }, { kind = "regression", value = 1, source = "this code" }]
+tolerance = { absolute = 0.1, unit = "-" }
+frequency = "verify"
+expected_failure = { reason = "why", distance = 0.2 }
+
+[[check]]
+run = "s1"
+metric = "run_out_distance"
+against = "s2"
+window = [0, 10]
+reference = { kind = "published", value = 0, source = "somewhere" }
+tolerance = { absolute = 0.2, unit = "-" }
+frequency = "verify"
+)toml";
+
+const Check& row_of(const Table& table, const std::string& id) {
+  const auto found = std::ranges::find(table.checks, id, &Check::id);
+  if (found == table.checks.end()) throw std::runtime_error("no row " + id);
+  return *found;
+}
+
+TEST(Table, ARunBesideAnotherIsHeldToTheSame) {
+  const Table table = parse_table(beside, "checks.toml");
+  EXPECT_EQ(table.runs[2].case_name, "s1");
+  ASSERT_EQ(table.checks.size(), 4u * 2u + 4u + 2u);  // DEM of four runs, regressions of two, the distances
+  for (const char* at : {"2", "5"}) {
+    const Check& other = row_of(table, std::string("s1-other.run_out@") + at + ".DEM");
+    EXPECT_EQ(*other.reference.record, "s1");  // that of the case
+    EXPECT_EQ(other.tolerance.value, 0.1);
+    EXPECT_EQ(other.frequency, Frequency::verify);
+    EXPECT_FALSE(other.expected_failure) << "known of the runs that the check names";
+    EXPECT_TRUE(row_of(table, std::string("s1.run_out@") + at + ".DEM").expected_failure);
+    EXPECT_EQ(row_of(table, std::string("s2-other.run_out@") + at + ".DEM").frequency, Frequency::nightly);
+  }
+  EXPECT_EQ(row_of(table, "s1.run_out_distance-s2.published").parameters.against, "s2");
+  EXPECT_EQ(row_of(table, "s1-other.run_out_distance-s2-other.published").parameters.against, "s2-other");
+}
+
+TEST(Table, AnExpectedFailureOfSomeRunsAtSomeInstants) {
+  const std::string some =
+      "expected_failure = [{ run = \"s1\", at = 5, reason = \"late\", distance = 0.3 }, { run = "
+      "\"s1-other\", "
+      "reason = \"other\", distance = [0.4, 0.5] }]";
+  const std::string all = "expected_failure = { reason = \"why\", distance = 0.2 }";
+  const Table table = parse_table(test::with_line_replaced(beside, all, some), "checks.toml");
+  EXPECT_FALSE(row_of(table, "s1.run_out@2.DEM").expected_failure);
+  EXPECT_EQ(row_of(table, "s1.run_out@5.DEM").expected_failure->reason, "late");
+  EXPECT_FALSE(row_of(table, "s2.run_out@5.DEM").expected_failure);
+  EXPECT_EQ(row_of(table, "s1-other.run_out@2.DEM").expected_failure->distance, 0.4);
+  EXPECT_EQ(row_of(table, "s1-other.run_out@5.DEM").expected_failure->distance, 0.5);
+  const auto refused = [&](const std::string& given) {
+    return message_of(test::with_line_replaced(beside, all, given));
+  };
+  EXPECT_NE(refused("expected_failure = { run = \"s3\", reason = \"w\", distance = 1 }")
+                .find("'s3' given, which is no run of the check"),
+            std::string::npos);
+  EXPECT_NE(refused("expected_failure = { at = 3, reason = \"w\", distance = 1 }")
+                .find("3 given, which is no instant of the check"),
+            std::string::npos);
+  EXPECT_NE(refused("expected_failure = [{ reason = \"w\", distance = 1 }, { run = \"s1\", reason = \"w\", "
+                    "distance = 1 }]")
+                .find("is in two of them"),
+            std::string::npos);
+}
+
+TEST(Table, RefusesARunBesideNothing) {
+  const auto refused = [](const std::string& line, const std::string& by) {
+    return message_of(test::with_line_replaced(beside, line, by));
+  };
+  EXPECT_NE(refused("beside = \"s1\"", "beside = \"s3\"").find("no [[run]] has the id 's3'"),
+            std::string::npos);
+  EXPECT_NE(refused("set = [\"model.preset=sourced\"]", "").find("without 'set' it is the run"),
+            std::string::npos);
+  EXPECT_NE(refused("id = \"s2\"", "id = \"s2\"\nfrequency = \"nightly\"").find("only a run beside another"),
+            std::string::npos);
+  EXPECT_NE(refused("beside = \"s2\"", "case = \"s2\"").find("frequency"), std::string::npos);
+  EXPECT_NE(refused("beside = \"s2\"\nset = [\"model.preset=sourced\"]",
+                    "beside = \"s2\"\nset = [\"model.preset=paper\"]")
+                .find("no [[run]] beside 's2' has the 'set' of 's1-other'"),
+            std::string::npos);
+}
+
+// Every scene of the paper that is run with the paper's preset is run with the default one too.
+TEST(Table, TheShippedOneHasTheAdvisedRunBesideEveryScene) {
+  const Table table = read_table(GRANVOF_CASES_DIR "/../compare/checks.toml");
+  const std::set<std::string> dear{"sw", "fw"};  // a quarter of an hour each
+  for (const PlannedRun& run : table.runs) {
+    if (!run.set.empty() || dear.contains(run.id)) continue;
+    EXPECT_TRUE(std::ranges::any_of(table.runs, [&](const PlannedRun& other) {
+      return other.beside == run.id && other.set == std::vector<std::string>{"model.preset=advised"};
+    })) << run.id;
+  }
 }
 
 TEST(Table, ReadsRowsAndExpandsRuns) {

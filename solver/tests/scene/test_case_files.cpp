@@ -122,7 +122,9 @@ TEST(ShippedCases, AreThoseOfThePaperAndTheLadder) {
   const auto names = shipped();
   for (const char* name : {"s1", "s2", "s1-loose", "s1-dense", "sw", "fw", "float-full-r08-nodrag",
                            "float-free-r02", "dam-break"}) {
-    EXPECT_TRUE(std::count(names.begin(), names.end(), name)) << name;
+    ASSERT_TRUE(std::count(names.begin(), names.end(), name)) << name;
+    const Scene scene = load_scene(fmt::format("{}/{}.toml", GRANVOF_CASES_DIR, name));
+    EXPECT_NE(scene.resolved.find("\npreset = \"paper\"\n"), std::string::npos) << name;
   }
 }
 
