@@ -25,9 +25,13 @@ AGREES = ("agrees", "within band")
 FLOATING = tuple(f"float-full-r{ratio}" for ratio in ("02", "04", "06", "08"))
 
 
+# Set of choices -> what it adds to the name of the paper's run.
+PRESETS = {"paper": "", "advised": "-advised", "sourced": "-sourced"}
+
+
 @dataclass(frozen=True)
 class Line:
-    """One line of the README's table: rows of one kind in one or several scenes."""
+    """One line of the README's table: rows of one kind in one or several scenes, for each set of choices that was run."""
 
     what: str
     scenes: tuple
@@ -41,10 +45,8 @@ def run_out(what, run, record, metric="run_out", at=(2, 5, 8, 10)):
 
 
 LINES = (
-    run_out("run-out of S1 at T = 2 / 5 / 8 / 10, the paper's model", "s1", "s1"),
-    run_out("run-out of S1 with the sourced choices", "s1-sourced", "s1"),
-    run_out("run-out of S2, the paper's model", "s2", "s2"),
-    run_out("run-out of S2 with the sourced choices", "s2-sourced", "s2"),
+    run_out("run-out of S1 at T = 2 / 5 / 8 / 10", "s1", "s1"),
+    run_out("run-out of S2, the same", "s2", "s2"),
     run_out("front of 99.5 % of the grains in air at T = 1 / 2 / 3 / 4.9, frictional restitution", "canary-dry-frictional",
             "canary-dry", "run_out_quantile", (1, 2, 3, 4.9)),
     Line("pore pressure at the onset, loose [Pa]", ("s1-loose",), ("base_pressure_peak",), "DEM", "s1-loose"),
@@ -55,7 +57,7 @@ LINES = (
     Line("slope of a heap at rest, T = 10 to 40, moves by [degrees]", ("heap",), ("slope_drift",), "theory"),
     Line("fastest fluid in a pool at rest [m/s]", ("pool",), ("fluid_speed_max",), "theory"),
 )
-# Of all scenes that have the row: the worst.
+# Of all runs that have the row: the worst.
 WORST = (("solid volume, largest relative change", "solid_volume_error"),
          ("liquid volume, largest relative change", "liquid_volume_error"),
          ("energy not accounted for, of that turned over", "energy_closure"))
@@ -81,9 +83,14 @@ def seconds(cost):
     return f"{float(f'{cost:.2g}'):g}"
 
 
-def rows_of(kept, line):
-    return [row for scene in line.scenes for metric in line.metrics for row in kept["rows"]
-            if (row["scene"], row["metric"], row["reference_kind"]) == (scene, metric, line.kind)]
+def rows_of(kept, line, preset):
+    runs = [scene + PRESETS[preset] for scene in line.scenes]
+    return [row for run in runs for metric in line.metrics for row in kept["rows"]
+            if (row["scene"], row["metric"], row["reference_kind"]) == (run, metric, line.kind)]
+
+
+def preset_of(run):
+    return next((preset for preset, end in PRESETS.items() if end and run.endswith(end)), "paper")
 
 
 def dem_cost(scene, results=ROOT / "reference/results"):
@@ -93,10 +100,11 @@ def dem_cost(scene, results=ROOT / "reference/results"):
     return mean(costs) if costs else None
 
 
-def cost_of(kept, line):
-    ours = [kept["costs"][scene]["core_seconds"] for scene in line.scenes if scene in kept["costs"]]
+def costs_of(kept, line, presets):
+    """Of the first run of each preset, and of one record."""
+    ours = [kept["costs"].get(line.scenes[0] + PRESETS[preset], {}).get("core_seconds") for preset in presets]
     theirs = dem_cost(line.record) if line.record else None
-    return "; ".join(seconds(cost) for cost in ours[:1] + [theirs] * bool(theirs)) or "-"
+    return " / ".join(seconds(cost) if cost else "-" for cost in ours) + (f"; {seconds(theirs)}" if theirs else "")
 
 
 def one_reference(rows):
@@ -111,21 +119,33 @@ def one_reference(rows):
     return f"{bound[1]} {shown}, within {bound[2]}" if bound else f"{shown} ± {tolerance}"
 
 
-def trust_rows(kept):
+def cell(rows, shown):
+    """Values, and how many of them agree."""
+    if not rows:
+        return "-"
+    unexpected = ", unexpected" * any(row["unexpected"] for row in rows)
+    return f"{shown} ({sum(row['verdict'] in AGREES for row in rows)} of {len(rows)}{unexpected})"
+
+
+def trust_rows(kept, presets):
     shown, missing = [], []
     for line in LINES:
-        rows = rows_of(kept, line)
-        if not rows:
+        rows = {preset: rows_of(kept, line, preset) for preset in presets}
+        made_of = next((found for found in rows.values() if found), None)
+        if made_of is None:
             missing.append(line.what)
             continue
-        shown.append((line.what, together(row["value"] for row in rows), one_reference(rows), line.kind, verdicts(rows),
-                      cost_of(kept, line)))
+        values = [cell(found, together(row["value"] for row in found)) for found in rows.values()]
+        shown.append((line.what, *values, one_reference(made_of), line.kind, costs_of(kept, line, presets)))
     for what, metric in WORST:
-        rows = [row for row in kept["rows"] if row["metric"] == metric and row["value"] is not None]
-        if rows:
-            worst = max(rows, key=lambda row: abs(row["value"]))
-            shown.append((f"{what}, worst of {len(rows)} runs", number(abs(worst["value"])), one_reference([worst]), "theory",
-                          verdicts(rows), ""))
+        all_of = [row for row in kept["rows"] if row["metric"] == metric and row["value"] is not None]
+        if not all_of:
+            continue
+        values = []
+        for preset in presets:
+            rows = [row for row in all_of if preset_of(row["scene"]) == preset]
+            values.append(cell(rows, number(max((abs(row["value"]) for row in rows), default=None))))
+        shown.append((f"{what}, worst of all runs", *values, one_reference(all_of[:1]), "theory", ""))
     return shown, missing
 
 
@@ -140,8 +160,10 @@ def made(kept):
 
 
 def trust_table(kept):
-    shown, missing = trust_rows(kept)
-    text = markdown(["what", "granvof", "reference", "kind", "agrees", "core-seconds; demvof"], shown)
+    there = {preset_of(row["scene"]) for row in kept["rows"]}
+    presets = [preset for preset in PRESETS if preset in there]
+    shown, missing = trust_rows(kept, presets)
+    text = markdown(["what", *presets, "reference", "kind", f"core-seconds: {' / '.join(presets)}; demvof"], shown)
     if missing:
         text += f"\nNo result is kept for: {'; '.join(missing)}.\n"
     return text + f"\nMeasured by granvof {made(kept)}.\n"

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 from PIL import Image
 from report import kept_results, trust_table
-from report.trust_table import LINES, WORST
+from report.trust_table import LINES, PRESETS, WORST
 
 RUN = {"id": "s1", "version": "0.2.0", "commit": "abc", "date": "2026-01-02T03:04:05Z", "numbers": {"core_seconds": 2.25}}
 
@@ -44,9 +44,19 @@ def test_the_table_says_value_reference_and_how_many_agree(root, rows):
     text = (root / "README.md").read_text()
     assert text.startswith("before\n") and text.endswith("after\n")
     line = next(line for line in text.splitlines() if "run-out of S1" in line)
-    assert "| 0.321 / 1.31 / 1.98 | 1.5 ± 0.05 | DEM | 2 of 3; expected failure | 2.2; 2000 |" in line
+    assert "| 0.321 / 1.31 / 1.98 (2 of 3) | 1.5 ± 0.05 | DEM | 2.2; 2000 |" in line
     assert "0.2.0 (abc), 2026-01-02" in text
-    assert "No result is kept for: run-out of S1 with the sourced choices" in text
+    assert "No result is kept for: run-out of S2" in text
+
+
+def test_presets_stand_beside_each_other(root, rows):
+    advised = [row | {"id": f"advised {row['id']}", "scene": "s1-advised", "value": row["value"] - 0.3} for row in rows]
+    advised[2] |= {"unexpected": True}
+    cost = RUN | {"id": "s1-advised", "numbers": {"core_seconds": 3.1}}
+    keep(root, verified([*rows, *advised], runs=[RUN, cost]))
+    text = (root / "README.md").read_text()
+    assert "| what | paper | advised | reference | kind | core-seconds: paper / advised; demvof |" in text
+    assert "| 0.321 / 1.31 / 1.98 (2 of 3) | 0.021 / 1.01 / 1.68 (2 of 3, unexpected) | 1.5 ± 0.05 | DEM | 2.2 / 3.1; 2000 |" in text
 
 
 def test_what_does_not_agree_stands_with_its_reason(root, rows):
@@ -113,7 +123,8 @@ def test_bad_input_is_two(root, capsys):
 
 def test_every_line_is_a_row_of_the_table_of_checks():
     """A run or a metric that is renamed must not drop out of the README unseen."""
-    table = tomllib.loads((trust_table.ROOT / "compare/checks.toml").read_text())["check"]
+    checks = tomllib.loads((trust_table.ROOT / "compare/checks.toml").read_text())
+    table, runs = checks["check"], checks["run"]
     there = set()
     for check in table:
         references = check["reference"] if isinstance(check["reference"], list) else [check["reference"]]
@@ -126,6 +137,9 @@ def test_every_line_is_a_row_of_the_table_of_checks():
                 there |= {(run, label, reference["kind"]) for reference in references}
     wanted = {(scene, metric, line.kind) for line in LINES for scene in line.scenes for metric in line.metrics}
     assert not sorted(wanted - there)
+    beside = {run["id"]: run["beside"] + preset for run in runs if "beside" in run for preset in PRESETS.values()
+              if preset and run["id"].endswith(preset)}
+    assert [run["id"] for run in runs if "beside" in run] == list(beside) == list(beside.values()), "named as PRESETS has it"
     assert {metric for _, metric in WORST} <= {metric for _, metric, _ in there}
 
 
