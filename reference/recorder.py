@@ -8,6 +8,7 @@ controls/ (gate closed), variants/<variant>/ (another grid, depth, floor or bead
 import csv
 import hashlib
 import json
+import re
 import shutil
 import subprocess
 import tomllib
@@ -21,6 +22,7 @@ RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
 INSTANTS_KEPT = 4  # of fields.h5 that go into a record: the first, the last and two between
 FIELDS_KEPT = ("f_s", "alpha")
+NAME = r"[A-Za-z0-9][A-Za-z0-9_.-]{0,199}"  # of a scene or variant: it becomes part of a path
 DIGITS_KEPT = 9  # significant, of series.csv
 
 
@@ -36,6 +38,11 @@ class Run:
 
     def __post_init__(self):
         object.__setattr__(self, "set", tuple(self.set))  # a list in the plan
+        for name in (self.scene, self.variant or "none"):
+            if not isinstance(name, str) or not re.fullmatch(NAME, name):
+                raise RecordError(f"{str(name)[:80]!r} is no name: letters, digits and -_. after a letter or digit")
+        if isinstance(self.seed, bool) or not isinstance(self.seed, int) or self.seed < 0:
+            raise RecordError(f"{self.scene}: the seed {self.seed!r} is no number of 0 or more")
         if bool(self.variant) != bool(self.set):
             raise RecordError(f"{self.scene}: a variant has a name and overrides, both or neither")
 
@@ -132,8 +139,8 @@ def variant_of(scene, sets, plan):
 
 def run_of(directory, plan=()):
     """Which run of which case a run directory of demvof holds: Run, case hash."""
+    facts = facts_of(directory / "run.json")
     try:
-        facts = json.loads((directory / "run.json").read_text())
         if facts["program"] != "demvof":
             raise RecordError(f"{directory} is a run of {facts['program']}, not of demvof")
         words = facts["command"].split()
@@ -142,8 +149,8 @@ def run_of(directory, plan=()):
         run = Run(facts["scene"], int(facts["monitors"]["seed"]), "--gate-closed" in words, variant=variant, set=sets,
                   chute="chute" in words)
         return run, facts["case_hash"]
-    except (OSError, ValueError, KeyError) as error:
-        raise RecordError(f"{directory} holds no run of demvof: {error}") from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise RecordError(f"{directory} holds no run of demvof: {one_line(error)}") from error
 
 
 def state(run, case_hash, results=RESULTS):
