@@ -1,6 +1,6 @@
 # A thin front for CMake's presets and the scripts in ci/, compare/ and reference/. `make help` lists the targets.
 #
-# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is reported as `not run`)
+# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is named as left out, and not judged)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
 # LABELS=unit       those tests only (make test; default: unit|verification)
@@ -36,7 +36,8 @@ build: setup  ## build the programs, the reference left out
 verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
 	$(call need,compare/verify)
 	ci/build --programs --reference=$(REFERENCE) release
-	compare/verify --build-dir $(RELEASE) --out $(OUT) $(if $(VERIFY),--frequency $(VERIFY))
+	compare/verify --build-dir $(RELEASE) --out $(OUT) $(if $(VERIFY),--frequency $(VERIFY)) \
+	  $(if $(filter off,$(REFERENCE)),--without-canary)
 
 test: setup  ## unit and verification tests (ctest), then the Python tests
 	ci/build --reference=$(REFERENCE) release

@@ -47,9 +47,14 @@ class StageRun:
 
     @classmethod
     def load(cls, directory: Path) -> "StageRun":
-        data = json.loads((directory / "state.json").read_text(encoding="utf-8"))
-        outcomes = {name: Outcome(**outcome) for name, outcome in data["outcomes"].items()}
-        return cls(directory, data["facts"], outcomes, data["finished"])
+        """ValueError, one line, where its state is damaged."""
+        path = directory / "state.json"
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+            outcomes = {name: Outcome(**outcome) for name, outcome in data["outcomes"].items()}
+            return cls(directory, data["facts"], outcomes, data["finished"])
+        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ValueError(f"{path} cannot be read ({' '.join(str(error).split())}); --fresh starts anew") from error
 
     def save(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
