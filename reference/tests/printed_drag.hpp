@@ -1,5 +1,5 @@
-// Drag of one bead, eqs (8) and (9), written independently of the closure that both programs use: the oracle of
-// their tests.
+// Drag of one bead, eqs (8) and (9), written independently of the closure that both programs use: the oracle
+// of their tests.
 //
 // beta / f_s of (8) times the bead's volume gives the coefficient of (u_c - u_s) on one bead [kg/s]: finite
 // as f_s -> 0. The printed branches do not meet at f_c = 0.8; they are blended linearly over f_c in [0.78,

@@ -1,8 +1,8 @@
 // Drag on a grain of a suspension: R. Di Felice, Int. J. Multiphase Flow 20 (1994) 153.
 //
 // The lone grain's drag at the superficial velocity U = f_c |u_c - u_s| (Dallavalle's C_D) times f_c^-chi,
-// chi = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2 / 2). Slow and fast suspensions settle as U ~ f_c^(1 + chi) and U ~
-// f_c^((1 + chi) / 2): Richardson & Zaki's exponents. C_D Re -> 4.8^2 at Re -> 0, 4 % below Stokes.
+// chi = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2 / 2). Slow and fast suspensions settle as U ~ f_c^(1 + chi) and U
+// ~ f_c^((1 + chi) / 2): Richardson & Zaki's exponents. C_D Re -> 4.8^2 at Re -> 0, 4 % below Stokes.
 #pragma once
 
 #include <cmath>

@@ -139,7 +139,8 @@ void ScalarSolver::combine(const float* z, double beta) {
   });
 }
 
-// x += alpha p, r -= alpha q (alpha per unit), and the new residual scaled for multigrid; the largest value of r.
+// x += alpha p, r -= alpha q (alpha per unit), and the new residual scaled for multigrid; the largest value
+// of r.
 double ScalarSolver::advance(double alpha, double* x) {
   const int n = user_.n[0];
   const double unit = unit_;

@@ -38,8 +38,8 @@ class ScalarSolver {
   Layout layout_;  // padded, of everything below; that of the finest level
   std::array<bool, 3> coupled_{};
   Buffer<double> zeros_;  // coefficients of the faces above the last row
-  // What r is multiplied by before it becomes single precision: 1 over its largest value at the last (re)start, as
-  // squares of small residuals, say of a Theta of 1e-15 m2/s2, would underflow.
+  // What r is multiplied by before it becomes single precision: 1 over its largest value at the last
+  // (re)start, as squares of small residuals, say of a Theta of 1e-15 m2/s2, would underflow.
   double unit_ = 1.0;
   Buffer<double> r_, q_, guess_;
   Buffer<float> p_;

@@ -13,18 +13,19 @@ namespace {
 
 constexpr int upwinding_settles = 4;  // iteration from which the upwind directions are kept
 // Grains do not pull. The solution of the linearised law may: a bed that opens within the step leaves P_lin
-// far below zero where the law says 0. Only as much tension as this share of the bed's load passes for none; a
-// layer of grains weighs ten times that.
+// far below zero where the law says 0. Only as much tension as this share of the bed's load passes for none;
+// a layer of grains weighs ten times that.
 constexpr double tension_that_matters = 1e-3;
 // Volume, as a fraction of a cell, that a face may carry with the fraction of the wrong side. A bed that a
 // step sets in motion outward starts with the fraction of the empty side: no volume leaves it, nothing but
 // its inertia resists, and one iteration "converges" with a face at 100 m/s.
 constexpr double turned_flux_that_matters = 1e-3;
-// A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope, in loads
-// of the bed: where grains do not touch, a pressure error of volume_tolerance times this is meaningless.
+// A mismatch of P_s counts as a solid fraction through the slope of the law, but not below this slope, in
+// loads of the bed: where grains do not touch, a pressure error of volume_tolerance times this is
+// meaningless.
 constexpr double slope_that_matters = 10.0;
-// Least slope of the law that a cell is linearised with, in loads of the bed: keeps the step regular where there
-// are no grains.
+// Least slope of the law that a cell is linearised with, in loads of the bed: keeps the step regular where
+// there are no grains.
 constexpr double least_slope = 1e-3;
 
 }  // namespace

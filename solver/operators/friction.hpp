@@ -58,7 +58,7 @@ class Friction {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
-  double velocity_;  // of the scene [m/s], see scales.hpp
+  double velocity_;                  // of the scene [m/s], see scales.hpp
   Range box_{{0, 0, 0}, {0, 0, 0}};  // cells the fields below are kept on; outside they hold no stress
   std::array<Layout, 3> faces_;      // of the box, by direction
   StrainRate strain_;

@@ -104,8 +104,7 @@ bool ImplicitViscosity::apply(double dt, const Field& viscosity, const FaceInert
     linear::Faces faces{};
     for (int e = 0; e < grid_.dim; ++e) faces.lower[e] = coefficient_[e].data();
     const linear::Report report = solver_[static_cast<std::size_t>(d)].solve(
-        faces, diagonal_.data(), rhs, x,
-        {least_velocity_ * heaviest, relative_tolerance, most_iterations});
+        faces, diagonal_.data(), rhs, x, {least_velocity_ * heaviest, relative_tolerance, most_iterations});
     converged = converged && report.converged;
     const double *b = beta[d].data(), *solid = inertia.solid[d].data(), *own = inertia.fluid[d].data();
     double* star = predicted_c[d].data();

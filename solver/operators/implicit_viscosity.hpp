@@ -41,7 +41,7 @@ class ImplicitViscosity {
 
   const Grid& grid_;
   const Boundary& boundary_;
-  double least_velocity_;  // that the solve leaves [m/s]
+  double least_velocity_;                     // that the solve leaves [m/s]
   std::vector<linear::ScalarSolver> solver_;  // one a component
   Field open_;                                // 1 where the component is unknown or its ghost has no gradient
   Field edge_;                                // viscosity on the edges of one plane [Pa s]

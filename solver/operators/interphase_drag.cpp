@@ -7,8 +7,8 @@
 
 namespace granvof {
 
-void InterphaseDrag::update(const FaceField& u_s, const FaceField& u_c, const Field& f_s,
-                            const Field& alpha, const FaceInertia& inertia) {
+void InterphaseDrag::update(const FaceField& u_s, const FaceField& u_c, const Field& f_s, const Field& alpha,
+                            const FaceInertia& inertia) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
     const double* us = u_s[d].data();
@@ -52,8 +52,8 @@ void InterphaseDrag::fill(Law law, const Field& f_s, const Field& alpha, const F
       }
       const double hindering = std::max(h[c], closures::lone_grain);
       const double share = f[c] * (1.0 - f[c]) / (hindering * (1.0 - hindering));
-      beta[c] = share * closures::drag_coefficient(law, hindering, 0.5 * (a[c] + a[c - s]),
-                                                   std::sqrt(square), gas, liquid, d_s);
+      beta[c] = share * closures::drag_coefficient(law, hindering, 0.5 * (a[c] + a[c - s]), std::sqrt(square),
+                                                   gas, liquid, d_s);
     });
   }
 }

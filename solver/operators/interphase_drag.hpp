@@ -2,10 +2,10 @@
 //
 // beta = 18 mu f_s f_c F / d^2: number of grains and share of the fluid are the face's means. With the
 // second-order fluxes the hindrance F is taken at the fraction that the fluid brings along, upwind along its
-// slip: that of the cell the grains move into. A suspension's own flux f_s u_s(f_s) is then monotone: it rises
-// with what is above and falls with what is below. With F of the mean too, the face at a front lets grains
-// through that the packing behind it holds up: f_s rises behind the front by 1 to 15 %, and by what the solvers
-// leave differently in each column. The paper's first-order scheme keeps the mean.
+// slip: that of the cell the grains move into. A suspension's own flux f_s u_s(f_s) is then monotone: it
+// rises with what is above and falls with what is below. With F of the mean too, the face at a front lets
+// grains through that the packing behind it holds up: f_s rises behind the front by 1 to 15 %, and by what
+// the solvers leave differently in each column. The paper's first-order scheme keeps the mean.
 #pragma once
 
 #include "solver/operators/mixture.hpp"
@@ -23,8 +23,8 @@ class InterphaseDrag {
         hindering_(grid),
         beta_(grid) {}
 
-  // One ghost layer of both velocities and of alpha and two of f_s must be filled; f_s on faces comes with the
-  // inertia.
+  // One ghost layer of both velocities and of alpha and two of f_s must be filled; f_s on faces comes with
+  // the inertia.
   void update(const FaceField& u_s, const FaceField& u_c, const Field& f_s, const Field& alpha,
               const FaceInertia& inertia);
 
@@ -37,7 +37,7 @@ class InterphaseDrag {
   const Grid& grid_;
   const Scene& scene_;
   SolidFractionFlux fraction_;
-  FaceField slip_;  // u_c - u_s, component by component [m/s]
+  FaceField slip_;   // u_c - u_s, component by component [m/s]
   Field hindering_;  // f_s that F is taken at, on the faces of one direction [-]
   FaceField beta_;
 };

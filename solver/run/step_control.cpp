@@ -16,8 +16,8 @@ constexpr double first_share_of_dt_max = 0.1;
 constexpr double elastic_courant =
     0.5;  // of explicit contact pressure; leapfrog's limit is 1 / sqrt(dimensions)
 
-// In which the fastest elastic wave of the solid, of speed sqrt(dP_s/df_s / rho_s), crosses half a cell [s]: the
-// fluid between the grains only slows it. Infinite where no grains touch.
+// In which the fastest elastic wave of the solid, of speed sqrt(dP_s/df_s / rho_s), crosses half a cell [s]:
+// the fluid between the grains only slows it. Infinite where no grains touch.
 double longest_elastic_step(const Grid& grid, const Scene& scene, const State& s) {
   const double *f = s.f_s.data(), *theta = s.theta.data(), *packing = s.packing.data();
   const double e = scene.solid.restitution, rho_s = scene.solid.density;

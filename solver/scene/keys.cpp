@@ -194,15 +194,16 @@ std::vector<Key> model_keys() {
              Scope::label),
       key("model.drag", "", any, MEMBER(scene.model.drag), "Drag, (8) and (9)."),
       // demvof's too: in both hashes
-      scoped(came_later(choice("model.drag_law",
-                               Words<DragLaw>{{"paper", DragLaw::paper},
-                                              {"di-felice", DragLaw::di_felice},
-                                              {"beetstra", DragLaw::beetstra},
-                                              {"tenneti", DragLaw::tenneti}},
-                               MEMBER(scene.model.drag_law),
-                               "Drag coefficient, of both codes: (8), (9) as printed, or Di Felice (1994), "
-                               "Beetstra et al. (2007), Tenneti et al. (2011), without their jump at f_s 0.2.")),
-             Scope::setup),
+      scoped(
+          came_later(choice("model.drag_law",
+                            Words<DragLaw>{{"paper", DragLaw::paper},
+                                           {"di-felice", DragLaw::di_felice},
+                                           {"beetstra", DragLaw::beetstra},
+                                           {"tenneti", DragLaw::tenneti}},
+                            MEMBER(scene.model.drag_law),
+                            "Drag coefficient, of both codes: (8), (9) as printed, or Di Felice (1994), "
+                            "Beetstra et al. (2007), Tenneti et al. (2011), without their jump at f_s 0.2.")),
+          Scope::setup),
       key("model.les", "", any, MEMBER(scene.model.les), "Subgrid viscosity (10)."),
       choice("model.granular_temperature", temperatures, MEMBER(scene.model.granular_temperature), "Eq (7)."),
       key("model.pressure_work", "", any, MEMBER(scene.model.pressure_work), "-P_s^K div u_s in (7)."),

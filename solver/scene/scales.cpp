@@ -41,7 +41,8 @@ Scales scales_of(const Scene& scene) {
   const double falling = std::sqrt(scene.gravity * length);
   double velocity = std::max(falling, wall), inertial = wall;
   if (velocity == 0.0) velocity = inertial = length / scene.times.end;
-  // A case without a bed has grains only where a caller puts them; without [solid] their density is a stand-in.
+  // A case without a bed has grains only where a caller puts them; without [solid] their density is a
+  // stand-in.
   const double rho = scene.bed ? scene.solid.density : scene.liquid.density;
   const double weight = (scene.bed ? least_excess_density(scene) : rho) * scene.gravity * length;
   const double volume = scene.tank[0] * scene.tank[1] * scene.tank[2];

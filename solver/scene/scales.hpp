@@ -1,7 +1,7 @@
 // The scene's own scales: what every threshold of the solver is a share of.
 //
-// A threshold with a unit holds for one size of tank and one kind of grain; as a share of these scales it holds
-// for every scene, in any units. This is the one place that says what small is measured by.
+// A threshold with a unit holds for one size of tank and one kind of grain; as a share of these scales it
+// holds for every scene, in any units. This is the one place that says what small is measured by.
 #pragma once
 
 #include "solver/scene/scene.hpp"
@@ -12,9 +12,9 @@ namespace granvof {
 struct Scales {
   double length;    // height of the bed, else of the liquid, else of the tank [m]
   double velocity;  // sqrt(g length), of the fastest wall if that is faster, else length / time.end [m/s]
-  double pressure;  // load of the bed: weight in the fluid it is lightest in, or inertia rho_s velocity^2 where
-                    // walls or nothing but the run's length set the velocity [Pa]
-  double energy;    // 1/2 density velocity^2 of the whole tank, of the continuous phase [J]
+  double pressure;  // load of the bed: weight in the fluid it is lightest in, or inertia rho_s velocity^2
+                    // where walls or nothing but the run's length set the velocity [Pa]
+  double energy;  // 1/2 density velocity^2 of the whole tank, of the continuous phase [J]
 
   double time() const { return length / velocity; }  // sqrt(length / g) [s]; of a bed the unit "column"
 };

@@ -120,7 +120,7 @@ enum class TemperatureModel { transported, algebraic, off };
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
 struct Model {
-  bool drag = true;                                                       // eqs (8), (9)
+  bool drag = true;  // eqs (8), (9)
   DragLaw drag_law = DragLaw::paper;
   bool les = true;                                                        // eq (10)
   TemperatureModel granular_temperature = TemperatureModel::transported;  // eq (7)

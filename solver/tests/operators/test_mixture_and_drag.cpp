@@ -64,8 +64,8 @@ TEST(InterphaseDrag, UsesTheWholeSlipOfAUniformState) {
     for (double f_s : {0.57, 0.05})
       for (double alpha : {1.0, 0.0, 0.3}) {
         const Dragged d(dim, true, f_s, alpha);
-        const double beta = closures::drag_coefficient(closures::drag_paper, f_s, alpha, slip, d.s.scene.gas, d.s.scene.liquid,
-                                                       d.s.scene.solid.diameter);
+        const double beta = closures::drag_coefficient(closures::drag_paper, f_s, alpha, slip, d.s.scene.gas,
+                                                       d.s.scene.liquid, d.s.scene.solid.diameter);
         ASSERT_GT(beta, 0.0);
         d.expect(beta);
       }
@@ -95,7 +95,7 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     Scene scene = unit_scene(2, 4);
     scene.numerics.solid_flux = flux;
     const Tank s(scene);
-    const Field alpha(s.grid, 1.0), f_s = s.cells([=](const Vec3& x) { return x[1] < 0.5 ? below : 0.0; });
+    const Field alpha(s.grid, 1.0), f_s = s.cells([=](const Vec3&x) { return x[1] < 0.5 ? below : 0.0; });
     FaceInertia inertia(s.grid);
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);

@@ -30,12 +30,14 @@ TEST(Units, AreRead) {
   expect("kg/m3 s", {1, -3, -1});
   expect("Pa s", {1, -1, -1});
   expect("J", {1, 2, -2});
-  for (const char* unit : {"mm", "g/cm3", "m/", "m//s", "m ", "2", "m2x"}) EXPECT_FALSE(dimension_of(unit)) << unit;
+  for (const char* unit : {"mm", "g/cm3", "m/", "m//s", "m ", "2", "m2x"})
+    EXPECT_FALSE(dimension_of(unit)) << unit;
 }
 
 TEST(Units, OfEveryKeyAreKnown) {
   for (const case_file::Key& key : case_file::keys())
-    EXPECT_TRUE(key.unit == case_file::unit_of_times || dimension_of(key.unit)) << key.name << " [" << key.unit << "]";
+    EXPECT_TRUE(key.unit == case_file::unit_of_times || dimension_of(key.unit))
+        << key.name << " [" << key.unit << "]";
 }
 
 TEST(Units, FactorsMultiplyByDimension) {
@@ -115,9 +117,12 @@ TEST(Scales, WithoutABed) {
 TEST(Scales, AreRestatedWithTheCase) {
   const UnitFactors f{1.0 / 150.0, 0.01, 1000.0};
   for (const std::vector<std::string>& set :
-       {std::vector<std::string>{}, {"solid.density=1000"}, {"tank.gravity=0", "time.unit=s"},
+       {std::vector<std::string>{},
+        {"solid.density=1000"},
+        {"tank.gravity=0", "time.unit=s"},
         {"bed=false", "solid=false", "gate=false", "reference=false", "time.unit=s"}}) {
-    const Scales a = scales_of(small(set)), b = scales_of(parse_scene(restated_case(small(set), f), "restated"));
+    const Scales a = scales_of(small(set)),
+                 b = scales_of(parse_scene(restated_case(small(set), f), "restated"));
     EXPECT_NEAR(b.length / a.length / f.of({0, 1, 0}), 1.0, 1e-14);
     EXPECT_NEAR(b.velocity / a.velocity / f.of({0, 1, -1}), 1.0, 1e-14);
     EXPECT_NEAR(b.pressure / a.pressure / f.of({1, -1, -2}), 1.0, 1e-14);

@@ -14,8 +14,8 @@ inline Scene restated(const Scene& scene, const UnitFactors& factors) {
   return parse_scene(restated_case(scene, factors), scene.name + " restated");
 }
 
-// Largest difference of a field, its dimension's factor taken out, over the field's largest value. What grains
-// carry counts by their share of the cell: without any, their colour is what was there last.
+// Largest difference of a field, its dimension's factor taken out, over the field's largest value. What
+// grains carry counts by their share of the cell: without any, their colour is what was there last.
 struct Difference {
   double value = 0.0;
   std::string field = "none";

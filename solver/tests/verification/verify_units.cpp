@@ -21,8 +21,8 @@ void PrintTo(const Restated& r, std::ostream* out) {
 }
 
 const std::vector<std::string> all_choices{
-    "numerics.solid_flux=compressive", "numerics.bed_surface=part-cells", "model.shear_dilatancy=true",
-    "model.friction_law=inertial",     "model.thin_layer_arrest=true",    "model.agitation_drag=true",
+    "numerics.solid_flux=compressive",  "numerics.bed_surface=part-cells", "model.shear_dilatancy=true",
+    "model.friction_law=inertial",      "model.thin_layer_arrest=true",    "model.agitation_drag=true",
     "model.frictional_restitution=true"};
 
 std::vector<std::string> with_all_choices(std::vector<std::string> set) {
@@ -52,7 +52,8 @@ class Units : public ::testing::TestWithParam<Restated> {
 
 // Powers of two that are sixth powers too: no square or cube root rounds otherwise than in SI units.
 TEST_P(Units, PowersOfTwoChangeNoBit) {
-  for (const UnitFactors& factors : {UnitFactors{64.0, 1.0, 1.0}, {1.0, 1.0 / 64.0, 1.0}, {1.0, 1.0, 4096.0}}) {
+  for (const UnitFactors& factors :
+       {UnitFactors{64.0, 1.0, 1.0}, {1.0, 1.0 / 64.0, 1.0}, {1.0, 1.0, 4096.0}}) {
     const Difference d = difference_in(factors);
     EXPECT_EQ(d.value, 0.0) << d.field << ": mass x " << factors.mass << ", length x " << factors.length
                             << ", time x " << factors.time;
@@ -61,7 +62,9 @@ TEST_P(Units, PowersOfTwoChangeNoBit) {
 
 TEST_P(Units, OtherUnitsChangeNothing) {
   const double one = 1.0;
-  for (const UnitFactors& factors : {UnitFactors{one / 150.0, 1.0, 1.0}, {1.0, 0.01, 1.0}, {1.0, 1.0, 1000.0},
+  for (const UnitFactors& factors : {UnitFactors{one / 150.0, 1.0, 1.0},
+                                     {1.0, 0.01, 1.0},
+                                     {1.0, 1.0, 1000.0},
                                      {one / 150.0, 0.01, 1000.0}}) {
     const Difference d = difference_in(factors);
     report("largest_difference", d.value);
@@ -80,11 +83,22 @@ INSTANTIATE_TEST_SUITE_P(
         Restated{"float_full", "float-full-r04", {"grid.dx=0.005"}, 2.0},
         Restated{"float_full_all_choices", "float-full-r04", with_all_choices({"grid.dx=0.005"}), 2.0},
         Restated{"dry_column", "dry-column", {"grid.dx=0.01", "grid.dy=0.01"}, 2.0},
-        Restated{"dry_column_all_choices", "dry-column", with_all_choices({"grid.dx=0.01", "grid.dy=0.01"}), 2.0},
-        Restated{"coulomb_walls", "s1", {"grid.dx=0.01", "walls.bottom.solid=coulomb", "walls.bottom.solid_friction=0.2"}, 2.0},
-        Restated{"viscous_liquid", "s1", {"grid.dx=0.01", "liquid.viscosity=1", "numerics.interface_scheme=plic"}, 2.0},
+        Restated{"dry_column_all_choices", "dry-column", with_all_choices({"grid.dx=0.01", "grid.dy=0.01"}),
+                 2.0},
+        Restated{"coulomb_walls",
+                 "s1",
+                 {"grid.dx=0.01", "walls.bottom.solid=coulomb", "walls.bottom.solid_friction=0.2"},
+                 2.0},
+        Restated{"viscous_liquid",
+                 "s1",
+                 {"grid.dx=0.01", "liquid.viscosity=1", "numerics.interface_scheme=plic"},
+                 2.0},
         Restated{"explicit_contact", "s1", {"grid.dx=0.01", "numerics.contact_pressure=explicit"}, 0.2},
-        Restated{"weightless_shear", "s1", {"grid.dx=0.01", "tank.gravity=0", "gate=false", "reference=false", "time.unit=s", "walls.top=no-slip", "walls.top.velocity=[0.5, 0.0]"}, 0.5}),
+        Restated{"weightless_shear",
+                 "s1",
+                 {"grid.dx=0.01", "tank.gravity=0", "gate=false", "reference=false", "time.unit=s",
+                  "walls.top=no-slip", "walls.top.velocity=[0.5, 0.0]"},
+                 0.5}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
