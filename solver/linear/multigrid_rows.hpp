@@ -61,18 +61,19 @@ inline void weighted_residual(int n, Stencil s, const float* rhs, const float* x
   }
 }
 
-// The last sweep of a cycle: the same as sweep, and the scalar product of the answer with rhs.
+// The last sweep of a cycle: the same as sweep, and the scalar product of the answer with rhs, summed in
+// double precision: in single it would follow the order of the terms, and CG with it.
 template <bool X, bool Y, bool Z>
 inline double sweep_and_dot(int n, Stencil s, const float* rhs, const float* x, const float* old, float keep,
                             float back, float step, float* out) {
-  float line = 0.0F;
+  double line = 0.0;
 #pragma omp simd reduction(+ : line)
   for (int i = 0; i < n; ++i) {
     const float value = keep * x[i] + back * old[i] + step * (rhs[i] + neighbours<X, Y, Z>(s, x, i));
     out[i] = value;
-    line += value * rhs[i];  // rhs is 0 in padding
+    line += static_cast<double>(value) * static_cast<double>(rhs[i]);  // rhs is 0 in padding
   }
-  return static_cast<double>(line);
+  return line;
 }
 
 // out = scale * (given - sum over faces of a (v - v_neighbour)), faces not scaled

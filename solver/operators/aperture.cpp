@@ -14,7 +14,8 @@ Aperture::Aperture(const Grid& grid, const Scene& scene) : grid_(grid), gate_(sc
   }
   if (gate_) {
     const int n = grid.cells.n[0];
-    gate_face_ = std::clamp(static_cast<int>(std::lround(gate_->position / grid.h[0])), 1, n - 1);
+    const int nearest = static_cast<int>(std::lround(gate_->position / grid.h[0]));
+    gate_face_ = grid.cells.periodic[0] ? nearest % n : std::clamp(nearest, 1, n - 1);
     update(-1.0);
   }
 }
@@ -28,7 +29,11 @@ bool Aperture::update(double time) {
   open_rows_ = rows;
   const Layout& l = grid_.cells;
   for (int k = 0; k < l.n[2]; ++k)
-    for (int j = 0; j < l.n[1]; ++j) open_[0][l.index(gate_face_, j, k)] = j < rows ? 1.0 : 0.0;
+    for (int j = 0; j < l.n[1]; ++j) {
+      const double open = j < rows ? 1.0 : 0.0;
+      open_[0][l.index(gate_face_, j, k)] = open;
+      if (gate_face_ == 0) open_[0][l.index(l.n[0], j, k)] = open;  // on the seam: the copy of face 0
+    }
   return true;
 }
 

@@ -77,6 +77,7 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
     rhs[c] = mass[c] * t[c];
   });
   boundary_.fill_scalar(kappa_);
+  boundary_.exchange(mass_);
   linear::Faces faces{};
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);

@@ -7,8 +7,8 @@
 
 namespace granvof {
 
-void InterphaseDrag::update(const FaceField& u_s, const FaceField& u_c, const Field& f_s, const Field& alpha,
-                            const FaceInertia& inertia) {
+void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c,
+                            const Field& f_s, const Field& alpha, const FaceInertia& inertia) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
     const double* us = u_s[d].data();
@@ -16,11 +16,12 @@ void InterphaseDrag::update(const FaceField& u_s, const FaceField& u_c, const Fi
     double* w = slip_[d].data();
     for_each(grid_.cells, grid_.cells_and_ghosts(1), [=](std::ptrdiff_t c) { w[c] = uc[c] - us[c]; });
   }
-  closures::with_drag_law(scene_.model.drag_law, [&](auto law) { fill(law, f_s, alpha, inertia); });
+  closures::with_drag_law(scene_.model.drag_law, [&](auto law) { fill(law, boundary, f_s, alpha, inertia); });
 }
 
 template <typename Law>
-void InterphaseDrag::fill(Law law, const Field& f_s, const Field& alpha, const FaceInertia& inertia) {
+void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
+                          const FaceInertia& inertia) {
   const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
   const double d_s = scene_.solid.diameter;
   const double* a = alpha.data();
@@ -55,6 +56,7 @@ void InterphaseDrag::fill(Law law, const Field& f_s, const Field& alpha, const F
       beta[c] = share * closures::drag_coefficient(law, hindering, 0.5 * (a[c] + a[c - s]), std::sqrt(square),
                                                    gas, liquid, d_s);
     });
+    boundary.exchange(beta_[d]);
   }
 }
 

@@ -8,6 +8,7 @@
 // the solvers leave differently in each column. The paper's first-order scheme keeps the mean.
 #pragma once
 
+#include "solver/grid/boundary.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/solid_fraction_flux.hpp"
 
@@ -24,15 +25,16 @@ class InterphaseDrag {
         beta_(grid) {}
 
   // One ghost layer of both velocities and of alpha and two of f_s must be filled; f_s on faces comes with
-  // the inertia.
-  void update(const FaceField& u_s, const FaceField& u_c, const Field& f_s, const Field& alpha,
-              const FaceInertia& inertia);
+  // the inertia. A face at a periodic end has its copy at the other.
+  void update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c, const Field& f_s,
+              const Field& alpha, const FaceInertia& inertia);
 
   const FaceField& beta() const { return beta_; }  // [kg/m3 s], zero where a face holds no grains
 
  private:
   template <typename Law>
-  void fill(Law law, const Field& f_s, const Field& alpha, const FaceInertia& inertia);
+  void fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
+            const FaceInertia& inertia);
 
   const Grid& grid_;
   const Scene& scene_;

@@ -44,6 +44,25 @@ bool cut_of(const Grid& grid, const double* a, std::ptrdiff_t c, Cut& cut) {
   return true;
 }
 
+// Liquid that a cell of fraction `a` loses through its lower and its upper end, as shares of the cell's f_c;
+// `width`: what leaves there in all. The plane's volume is good to the root of rounding only: no more liquid
+// and no more gas leaves than the cell holds.
+std::array<double, 2> leaving(const Cut& cut, int d, double a, const std::array<double, 2>& width) {
+  std::array<double, 2> liquid{};
+  for (const int end : {0, 1}) {
+    const bool far = (end == 1) != cut.mirrored[d];
+    const double lower = far ? 1.0 - width[end] : 0.0;
+    liquid[end] =
+        width[end] > pure ? volume_in_slab(cut.plane, d, lower, lower + width[end]) : a * width[end];
+  }
+  const double wet = liquid[0] + liquid[1], dry = width[0] + width[1] - wet;
+  for (const int end : {0, 1}) {
+    if (wet > a) liquid[end] *= a / wet;
+    if (dry > 1.0 - a) liquid[end] = width[end] - (width[end] - liquid[end]) * (1.0 - a) / dry;
+  }
+  return liquid;
+}
+
 }  // namespace
 
 PlicTransport::PlicTransport(const Grid& grid, const Boundary& boundary)
@@ -62,16 +81,16 @@ double PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& al
   for_each(grid_.cells, grid_.fluid_faces(d), [=, this](std::ptrdiff_t c) {
     const bool forward = q[c] > 0.0;
     const std::ptrdiff_t donor = forward ? c - s : c;
-    const double width = std::fabs(q[c]) * dt_h / fc[donor];  // the part of the donor that leaves
+    const double of_donor = dt_h / fc[donor];  // a flux as the part of the donor that it takes
+    const int end = forward ? 1 : 0;
+    const std::array<double, 2> width{std::fmax(-q[donor], 0.0) * of_donor,
+                                      std::fmax(q[donor + s], 0.0) * of_donor};
     Cut cut;
-    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width <= pure || !cut_of(grid_, a, donor, cut)) {
+    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width[end] <= pure || !cut_of(grid_, a, donor, cut)) {
       liquid[c] = a[donor] * q[c];
       return;
     }
-    const bool upper_end = forward != cut.mirrored[d];
-    const double lower = upper_end ? 1.0 - width : 0.0;
-    const double share = volume_in_slab(cut.plane, d, lower, lower + width) / width;
-    liquid[c] = share * q[c];
+    liquid[c] = leaving(cut, d, a[donor], width)[end] / width[end] * q[c];
   });
   boundary_.exchange(flux_);
   for_each(grid_.cells, [=](std::ptrdiff_t c) {

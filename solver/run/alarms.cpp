@@ -11,8 +11,7 @@
 namespace granvof {
 namespace {
 
-constexpr double largest_solid_volume_error = 1e-9;   // rounding gives 1e-14
-constexpr double largest_liquid_volume_error = 1e-5;  // follows numerics.volume_tolerance
+constexpr double largest_volume_error = 1e-9;  // of the solid and of the liquid; rounding gives 1e-14
 constexpr double lowest_fraction = -1e-9;
 constexpr double largest_energy_residual = 0.01;  // of the energy turned over
 // The same. First-order volume transport lifts what it spreads: 0.06 in s1, 0.2 on its coarsest grids, 0.3 in
@@ -55,9 +54,8 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   };
   const EnergyTerms& e = s.energy;
   const double turnover = energy_turnover(start_, e) + least_energy_;
-  look("solid volume", monitors.solid_volume_error(), largest_solid_volume_error, "grains are lost or made");
-  look("liquid volume", monitors.liquid_volume_error(), largest_liquid_volume_error,
-       "liquid is lost or made; numerics.volume_tolerance governs it");
+  look("solid volume", monitors.solid_volume_error(), largest_volume_error, "grains are lost or made");
+  look("liquid volume", monitors.liquid_volume_error(), largest_volume_error, "liquid is lost or made");
   look("solid fraction", monitors.solid_fraction_max(), scene_.contact.solid_fraction_max,
        "denser than contact.solid_fraction_max");
   look("negative fraction", -monitors.solid_fraction_min(), -lowest_fraction,

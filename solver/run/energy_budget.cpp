@@ -16,7 +16,7 @@ struct EnergyBudget::FaceWork {
   double gravity = 0.0;        // of which gravity
   double slip = 0.0;           // beta |u - v|^2 dt
   double fluid_pressure = 0.0;
-  double flux_pressure = 0.0;  // the same by the fluxes: zero where continuity holds
+  double flux_pressure = 0.0;  // the same by the fluxes: zero where continuity is solved
   double solid_pressure = 0.0;
   double potential_out = 0.0, kinetic_out = 0.0;  // through the open top
 };
@@ -82,7 +82,7 @@ void EnergyBudget::add_fluid(double dt, int d, const Range& faces, double weight
                *star = trace.predicted_c[d].data();
   const double *f1 = next.f_s.data(), *a1 = next.alpha.data(), *p0 = now.p_c.data(), *p1 = next.p_c.data();
   const double *v0 = now.u_c[d].data(), *v1 = next.u_c[d].data();
-  const double *qs = trace.flux_s[d].data(), *qc = trace.flux_c[d].data();
+  const double *qs = trace.flux_s[d].data(), *qc = trace.flux_c_solved[d].data();
   const double rho_l = scene_.liquid.density, rho_g = scene_.gas.density, dt_h = dt / grid_.h[d];
   double force = 0.0, step = 0.0, before = 0.0, after = 0.0, predicted = 0.0, momentum = 0.0;
   double fluid_pressure = 0.0, flux_pressure = 0.0;

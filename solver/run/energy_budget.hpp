@@ -25,6 +25,7 @@ struct StepTrace {
   const FaceField& beta;                       // [kg/m3 s]
   const FaceField &predicted_s, &predicted_c;  // explicit predictors [m/s]
   const FaceField &flux_s, &flux_c;            // [m/s]
+  const FaceField& flux_c_solved;              // before it closed continuity: what the velocities carry [m/s]
   const Rheology& rheology;                    // of the old level
   const StrainRate& strain;                    // of the new u_s
   const FluidViscosity::Power& viscous;

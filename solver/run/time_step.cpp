@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "solver/operators/continuity_closure.hpp"
 #include "solver/operators/convection.hpp"
 #include "solver/operators/packing.hpp"
+#include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_transport.hpp"
 #include "solver/run/step_control.hpp"
 
@@ -42,6 +44,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       rhs_(grid),
       flux_s_(grid),
       flux_c_(grid),
+      flux_c_solved_(grid),
       stirred_(grid),
       production_(grid) {}
 
@@ -54,7 +57,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
     rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
-    drag_.update(now.u_s, now.u_c, now.f_s, now.alpha, inertia_);
+    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_);
     stir_grains(now, dt);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
@@ -85,6 +88,8 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 
   cost_.time("transport", [&] {
     keep_solid_positive(grid_, boundary_, dt, now.f_s, flux_s_, flux_c_);
+    flux_c_solved_ = flux_c_;
+    close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);
     transport_solid(grid_, dt, now.f_s, flux_s_, next.f_s);
   });
   const double* f = next.f_s.data();
@@ -99,6 +104,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     if (scene_.model.shear_dilatancy)
       transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.packing, next.packing);
     report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
+    set_pressure_level(grid_, scene_, next.alpha, next.p_c);
     boundary_.fill_scalar(next.f_s, 0.0);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
@@ -235,9 +241,10 @@ void TimeStep::account_energy(const State& now, double dt, const Friction::Power
                               const GranularLosses& granular, double dilated, double liquid_left,
                               State& next) {
   const FluidViscosity::Power viscous = viscosity_.power(boundary_);
-  next.energy.add(budget_.of_step(dt, now, next,
-                                  {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_,
-                                   rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
+  next.energy.add(
+      budget_.of_step(dt, now, next,
+                      {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_, flux_c_solved_,
+                       rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

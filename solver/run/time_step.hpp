@@ -71,6 +71,7 @@ class TimeStep {
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
   FaceField mass_, rhs_;                 // of the implicit solid momentum
   FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]
+  FaceField flux_c_solved_;              // f_c u_c before continuity was closed
   Field stirred_;                        // Theta that the kinetic viscosity is taken at [m2/s2]
   Field production_;                     // of Theta: what the kinetic stress dissipates [W/m3]
   double kinematic_viscosity_ = 0.0;     // largest of the fluid, LES included [m2/s]

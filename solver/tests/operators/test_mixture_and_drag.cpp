@@ -40,8 +40,8 @@ struct Dragged {
     const Field alpha_cells = s.cells([=](const Vec3&) { return alpha; });
     const Field f_s_cells = s.cells([=](const Vec3&) { return f_s; });
     inertia.update(s.grid, s.scene, f_s_cells, alpha_cells);
-    drag_.update(s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)), f_s_cells,
-                 alpha_cells, inertia);
+    drag_.update(s.boundary, s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)),
+                 f_s_cells, alpha_cells, inertia);
   }
   static Scene scene_of(int dim, bool drag) {
     Scene scene = unit_scene(dim, 4);
@@ -83,7 +83,7 @@ TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
   FaceInertia inertia(d.s.grid);
   const Field alpha(d.s.grid, 1.0);
   inertia.update(d.s.grid, d.s.scene, Field(d.s.grid), alpha);
-  d.drag_.update(FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia);
+  d.drag_.update(d.s.boundary, FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia);
   d.expect(0.0);
 }
 

@@ -53,10 +53,20 @@ TEST_F(RunAlarms, ASoundRunRaisesNone) {
   EXPECT_EQ(record_of({"numerics.solid_flux=limited"})["warnings"], json::array());
 }
 
-// A loose tolerance: liquid is no longer conserved.
-TEST_F(RunAlarms, LooseToleranceIsSeenInTheLiquidVolume) {
+// A loose tolerance: continuity is not solved.
+TEST_F(RunAlarms, LooseToleranceIsSeenInTheEnergyResidual) {
   EXPECT_TRUE(warned(record_of({"numerics.volume_tolerance=1e-2", "numerics.linear_tolerance=0.5"}),
-                     "liquid volume"));
+                     "energy residual"));
+}
+
+TEST_F(RunAlarms, LiquidThatIsLostIsSeenInTheLiquidVolume) {
+  resume_with(
+      [](std::vector<double>& alpha) {
+        for (double& value : alpha) value *= 1.0 - 1e-8;
+      },
+      "alpha");
+  EXPECT_TRUE(warned(resumed_, "liquid volume")) << resumed_["warnings"];
+  EXPECT_FALSE(warned(resumed_, "solid volume")) << resumed_["warnings"];
 }
 
 // Contacts that are too soft for the load: the bed is pressed beyond its largest packing.

@@ -78,7 +78,7 @@ TEST_F(RunCase, FinishesAndKeepsItsVolumes) {
   EXPECT_GT(record["steps"].get<int>(), 20);
   EXPECT_GT(record["core_seconds"].get<double>(), 0.0);
   EXPECT_LT(record["solid_volume_error"].get<double>(), 1e-12);
-  EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-6);  // numerics.volume_tolerance
+  EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-12);
   EXPECT_GE(record["solid_fraction_max"].get<double>(), 0.57);
   EXPECT_LT(record["solid_fraction_max"].get<double>(), 0.63);
   for (const char* part :
@@ -97,18 +97,13 @@ TEST_F(RunCase, FinishesAndKeepsItsVolumes) {
   EXPECT_EQ(read_field_times(path("run") / "fields.h5").size(), 3U);
 }
 
-// alpha is bounded by what the fluxes leave of f_c, which differs from 1 - f_s by the residual of continuity:
-// the liquid is conserved as well as continuity is solved.
-TEST_F(RunCase, LiquidIsConservedAsWellAsContinuityIsSolved) {
-  double last = 1.0;
-  for (const char* tolerance : {"1e-4", "1e-7", "1e-10"}) {
-    const Scene scene =
-        column_scene({std::string("numerics.volume_tolerance=") + tolerance, "time.end=0.05"});
-    ASSERT_EQ(run_into(path(tolerance), scene), 0);
-    const double error = record_of(path(tolerance))["liquid_volume_error"];
-    EXPECT_LT(error, scene.numerics.volume_tolerance);
-    EXPECT_LT(error, 0.1 * last);
-    last = error;
+// The fluxes that carry the liquid close continuity to rounding, however well the pressures are solved.
+TEST_F(RunCase, LiquidIsConservedWhateverTheTolerance) {
+  for (const char* tolerance : {"1e-4", "1e-6"}) {
+    ASSERT_EQ(run_into(path(tolerance), column_scene({std::string("numerics.volume_tolerance=") + tolerance,
+                                                      "time.end=0.05"})),
+              0);
+    EXPECT_LT(record_of(path(tolerance))["liquid_volume_error"].get<double>(), 1e-13) << tolerance;
   }
 }
 
@@ -116,7 +111,7 @@ TEST_F(RunCase, LimitedFluxesFinishToo) {
   EXPECT_EQ(run_into(path("run"), column_scene({"numerics.solid_flux=limited"})), 0);
   const json record = record_of(path("run"));
   EXPECT_LT(record["solid_volume_error"].get<double>(), 1e-12);
-  EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-6);  // numerics.volume_tolerance
+  EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-12);
 }
 
 TEST_F(RunCase, EveryModelSwitchRuns) {
@@ -239,7 +234,7 @@ TEST_F(RunCase, RefusedStepsAreRetriedShorter) {
   EXPECT_GT(record["refused_steps"].get<int>(), 0);
   EXPECT_EQ(record["exit"]["state"], "finished");
   EXPECT_LT(record["solid_volume_error"].get<double>(), 1e-12);
-  EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-6);  // numerics.volume_tolerance
+  EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+// Level of the fluid pressure in a tank without an open side.
+#pragma once
+
+#include "solver/operators/mixture.hpp"
+
+namespace granvof {
+
+// Without an open side continuity (4) fixes P_c but for a constant, and what a solver leaves of it wanders by
+// tens of Pa. The level of this program: the mean of P_c over the lid is zero, P_c taken from the uppermost
+// cells to the lid, half a cell above, by the weight of the continuous phase in them. A pool at rest then has
+// the pressure it has under an open top, where P_c = 0 everywhere. With a periodic vertical "the lid" is
+// where the ends are joined. Adds a constant to p_c [Pa], interior cells only; an open top is left alone.
+inline void set_pressure_level(const Grid& grid, const Scene& scene, const Field& alpha, Field& p_c) {
+  if (grid.open_top) return;
+  const double rho_l = scene.liquid.density, rho_g = scene.gas.density;
+  const double half = 0.5 * scene.gravity * grid.h[1];
+  const double* a = alpha.data();
+  double* p = p_c.data();
+  Range top = grid.all_cells();
+  top.lower[1] = grid.cells.n[1] - 1;
+  const double mean =
+      sum_over(grid.cells, top, [=](std::ptrdiff_t c) { return p[c] - half * mixture(a[c], rho_l, rho_g); }) /
+      (static_cast<double>(grid.cells.n[0]) * grid.cells.n[2]);
+  for_each(grid.cells, [=](std::ptrdiff_t c) { p[c] -= mean; });
+}
+
+}  // namespace granvof
