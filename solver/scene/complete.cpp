@@ -8,6 +8,7 @@
 
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/presets.hpp"
+#include "solver/scene/scales.hpp"
 #include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
@@ -16,7 +17,9 @@ namespace {
 constexpr double most_cells = 1e9;  // of a grid
 constexpr double most_rows = 1e6;   // of series.csv
 constexpr double most_field_times = 1e4;
-constexpr double roundoff = 1e-9;  // relative: lengths that differ by less are the same
+constexpr double longest_step = 0.07;   // default, in times of the scene
+constexpr double shortest_step = 2e-7;  // default, in longest steps
+constexpr double roundoff = 1e-9;       // relative: lengths that differ by less are the same
 
 const std::array<std::string, 3> axis_names{"x", "y", "z"};
 
@@ -342,8 +345,10 @@ class Completion {
     for (const double time : t.field_times) s_.times.field_times.push_back(time * s_.times.unit);
   }
 
-  void numerics() const {
-    const Numerics& n = s_.numerics;
+  void numerics() {
+    Numerics& n = s_.numerics;
+    if (!given("numerics.dt_max")) n.dt_max = longest_step * scales_of(s_).time();
+    if (!given("numerics.dt_min")) n.dt_min = shortest_step * n.dt_max;
     if (n.dt_min > n.dt_max)
       refuse("numerics.dt_min", fmt::format("at most numerics.dt_max = {} s", n.dt_max));
   }

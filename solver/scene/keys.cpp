@@ -248,9 +248,11 @@ std::vector<Key> numerics_keys() {
   return {
       key("numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
           MEMBER(scene.numerics.cfl), "Convective Courant number of a step."),
-      key("numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max), "Longest step."),
-      key("numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
-          "A refused step that would be shorter ends the run; at most dt_max."),
+      otherwise(key("numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max), "Longest step."),
+                "0.07 sqrt(h/g), h the height of the bed, else of the liquid, else of the tank"),
+      otherwise(key("numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
+                    "A refused step that would be shorter ends the run; at most dt_max."),
+                "2e-7 dt_max"),
       choice("numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
              "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded; "
              "that of a gas over a liquid stays of first order."),

@@ -49,6 +49,10 @@ const std::vector<Choice>& choices() {
        .reason =
            "The fluid drags on the agitation of sheared grains too, 5 to 10 % of what DEM-VOF's beads lose "
            "(scaling of da Cruz et al. 2005)."},
+      {.key = "model.drag_law",
+       .reason = "Without the jump of (8) at f_s 0.2, for suspensions (Di Felice 1994; Beetstra et al. 2007; "
+                 "Tenneti et "
+                 "al. 2011). DEM-VOF takes the same law, and its records are of the paper's."},
       {.key = "model.frictional_restitution",
        .reason =
            "Friction takes from collisions too (Chialvo and Sundaresan 2013): for grains in air; under water "

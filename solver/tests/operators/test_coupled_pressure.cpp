@@ -6,6 +6,7 @@
 #include "solver/closures/solid_pressure.hpp"
 #include "solver/operators/coupled_pressure.hpp"
 #include "solver/operators/interphase_drag.hpp"
+#include "solver/scene/scales.hpp"
 #include "solver/tests/operators/tank.hpp"
 
 namespace granvof {
@@ -65,7 +66,8 @@ struct Step {
       EXPECT_LE(std::fabs(s.divergence(flux_s, c) + s.divergence(flux_c, c)) * dt, 1.01 * tolerance + 1e-12);
       const double f = solid_after(dt, c);
       const auto p = law(f, c);
-      EXPECT_LE(std::fabs(p.value - p_s[c]) / std::fmax(p.slope, 1e4), 1.01 * tolerance)
+      EXPECT_LE(std::fabs(p.value - p_s[c]) / std::fmax(p.slope, 10.0 * scales_of(s.scene).pressure),
+                1.01 * tolerance)
           << i << ' ' << j << ' ' << k << ": " << f << ' ' << p.value << ' ' << p_s[c];
       EXPECT_GE(p_s[c], 0.0);
     });

@@ -47,7 +47,7 @@ const std::vector<Refused> values{
     {"cfl_zero", {"numerics.cfl=0"}, {"numerics.cfl: got 0, allowed: a number in (0, 0.9]"}},
     {"cfl_large", {"numerics.cfl=0.91"}, {"numerics.cfl: got 0.91, allowed: a number in (0, 0.9]"}},
     {"dt_order",
-     {"numerics.dt_min=0.01"},
+     {"numerics.dt_max=0.005", "numerics.dt_min=0.01"},
      {"numerics.dt_min: got 0.01", "at most numerics.dt_max = 0.005 s"}},
     {"bands_without_size", {"bed.colour=layers"}, {"bed.colour_size", "required with bed.colour"}},
     {"size_without_bands", {"bed.colour_size=0.01"}, {"bed.colour_size: got 0.01", "only with bands"}},

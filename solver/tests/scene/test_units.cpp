@@ -73,6 +73,16 @@ TEST(Restate, MultipliesEveryDimensionalKey) {
   EXPECT_EQ(b.reference->seeds, a.reference->seeds);
 }
 
+TEST(Restate, NeedsNoStatedSteps) {
+  // The defaults follow the scene: a model of 1 to 100 by Froude's rule takes steps a tenth as long.
+  const Scene a = small(), b = small({"tank.size=[0.004, 0.0012]", "grid.dx=1e-4", "liquid.level=7e-4",
+                                      "bed.length=1e-3", "bed.height=5e-4", "reference=false"});
+  EXPECT_DOUBLE_EQ(a.numerics.dt_max, 0.07 * a.times.unit);
+  EXPECT_DOUBLE_EQ(b.numerics.dt_max, 0.1 * a.numerics.dt_max);
+  EXPECT_DOUBLE_EQ(b.numerics.dt_min, 0.1 * a.numerics.dt_min);
+  EXPECT_DOUBLE_EQ(small({"numerics.dt_max=5e-3"}).numerics.dt_min, 1e-9);
+}
+
 TEST(Restate, LeavesTimesInColumnUnits) {
   const Scene a = small(), b = parse_scene(restated_case(a, {1.0, 0.01, 0.1}), "restated");
   EXPECT_NEAR(b.times.end, 0.1 * a.times.end, 1e-15);

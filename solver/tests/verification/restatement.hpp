@@ -36,20 +36,28 @@ struct Difference {
   }
 };
 
-inline Difference difference(const State& a, const State& b, int dim, const UnitFactors& factors) {
-  const double pressure = factors.of({1, -1, -2}), velocity = factors.of({0, 1, -1});
+// Of where everything is and how it moves.
+inline Difference difference_of_motion(const State& a, const State& b, int dim, const UnitFactors& factors) {
+  const double velocity = factors.of({0, 1, -1});
   Difference d;
   d.take("f_s", a.f_s, b.f_s, 1.0);
   d.take("alpha", a.alpha, b.alpha, 1.0);
   d.take("packing", a.packing, b.packing, 1.0, &a.f_s);
   d.take("phi", a.phi, b.phi, 1.0, &a.f_s);
-  d.take("p_c", a.p_c, b.p_c, pressure);
-  d.take("p_s", a.p_s, b.p_s, pressure);
-  d.take("theta", a.theta, b.theta, velocity * velocity, &a.f_s);
   for (int i = 0; i < dim; ++i) {
     d.take("u_s", a.u_s[i], b.u_s[i], velocity);
     d.take("u_c", a.u_c[i], b.u_c[i], velocity);
   }
+  return d;
+}
+
+// Of what follows from small differences of that: pressures and Theta.
+inline Difference difference_of_stress(const State& a, const State& b, const UnitFactors& factors) {
+  const double pressure = factors.of({1, -1, -2});
+  Difference d;
+  d.take("p_c", a.p_c, b.p_c, pressure);
+  d.take("p_s", a.p_s, b.p_s, pressure);
+  d.take("theta", a.theta, b.theta, factors.of({0, 2, -2}), &a.f_s);
   return d;
 }
 
