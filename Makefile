@@ -1,6 +1,6 @@
 # A thin front for CMake's presets and the scripts in ci/, compare/ and reference/. `make help` lists the targets.
 #
-# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is reported as `not run`)
+# REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is named as left out, and not judged)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
 # LABELS=unit       those tests only (make test; default: unit|verification)
@@ -36,7 +36,8 @@ build: setup  ## build the programs, the reference left out
 verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
 	$(call need,compare/verify)
 	ci/build --programs --reference=$(REFERENCE) release
-	compare/verify --build-dir $(RELEASE) --out $(OUT) $(if $(VERIFY),--frequency $(VERIFY))
+	compare/verify --build-dir $(RELEASE) --out "$(OUT)" $(if $(VERIFY),--frequency $(VERIFY)) \
+	  $(if $(filter off,$(REFERENCE)),--without-canary)
 
 test: setup  ## unit and verification tests (ctest), then the Python tests
 	ci/build --reference=$(REFERENCE) release
@@ -50,21 +51,21 @@ reference: setup  ## run and record the DEM-VOF reference where missing or stale
 
 plots: setup  ## plots and report from existing results, without running anything
 	$(call need,compare/verify)
-	compare/verify --plots-only --build-dir $(RELEASE) --out $(OUT)
+	compare/verify --plots-only --build-dir $(RELEASE) --out "$(OUT)"
 
 charts: setup  ## error against cost of every method (compare/study.toml): runs what is missing, draws (SCENE=s1: one)
 	ci/build --programs release
-	$(RELEASE)/compare/granvof-compare charts --cache $(OUT)/study --out $(OUT)/charts $(if $(SCENE),--scene $(SCENE))
-	$(PYTHON) compare/report/charts.py --charts $(OUT)/charts
+	$(RELEASE)/compare/granvof-compare charts --cache "$(OUT)/study" --out "$(OUT)/charts" $(if $(SCENE),--scene $(SCENE))
+	$(PYTHON) compare/report/charts.py --charts "$(OUT)/charts"
 
 runout: setup  ## why the run-out runs ahead late (compare/late-run-out.toml): s1, s2, dry-column, for the report after `make charts`
 	ci/build --programs release
 	for scene in s1 s2 dry-column; do $(RELEASE)/compare/granvof-compare ablate cases/$$scene.toml \
-	  --study compare/late-run-out.toml --cache $(OUT)/study --out $(OUT)/ablate/$$scene-run-out || exit; done
+	  --study compare/late-run-out.toml --cache "$(OUT)/study" --out "$(OUT)/ablate/$$scene-run-out" || exit; done
 
 stability: setup  ## where the methods hold and fail, by bisection (half an hour); out/stability, drawn by `make plots`
 	ci/build --programs release
-	compare/stability --build-dir $(RELEASE) --out $(OUT)
+	compare/stability --build-dir $(RELEASE) --out "$(OUT)"
 
 nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)

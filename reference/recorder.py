@@ -6,7 +6,9 @@ depends on, the seed and the versions of all parts. Records that no comparison m
 controls/ (gate closed), variants/<variant>/ (another grid, depth, floor or bead size) and bulk-friction/ (the chute).
 """
 import csv
+import hashlib
 import json
+import re
 import shutil
 import subprocess
 import tomllib
@@ -20,6 +22,7 @@ RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
 INSTANTS_KEPT = 4  # of fields.h5 that go into a record: the first, the last and two between
 FIELDS_KEPT = ("f_s", "alpha")
+NAME = r"[A-Za-z0-9][A-Za-z0-9_.-]{0,199}"  # of a scene or variant: it becomes part of a path
 DIGITS_KEPT = 9  # significant, of series.csv
 
 
@@ -35,6 +38,11 @@ class Run:
 
     def __post_init__(self):
         object.__setattr__(self, "set", tuple(self.set))  # a list in the plan
+        for name in (self.scene, self.variant or "none"):
+            if not isinstance(name, str) or not re.fullmatch(NAME, name):
+                raise RecordError(f"{str(name)[:80]!r} is no name: letters, digits and -_. after a letter or digit")
+        if isinstance(self.seed, bool) or not isinstance(self.seed, int) or self.seed < 0:
+            raise RecordError(f"{self.scene}: the seed {self.seed!r} is no number of 0 or more")
         if bool(self.variant) != bool(self.set):
             raise RecordError(f"{self.scene}: a variant has a name and overrides, both or neither")
 
@@ -69,8 +77,28 @@ class RecordError(Exception):
     """What is missing or wrong, in one line."""
 
 
+def one_line(error):
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def facts_of(path):
+    """Content of a run.json or record.json. RecordError where it is damaged."""
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise RecordError(f"{path} cannot be read: {one_line(error)}") from error
+    if not isinstance(facts, dict):
+        raise RecordError(f"{path} is no JSON object")
+    return facts
+
+
 def read_plan(path=ROOT / "reference/plan.toml"):
-    runs = [Run(**entry) for entry in tomllib.loads(path.read_text())["run"]]
+    try:
+        runs = [Run(**entry) for entry in tomllib.loads(path.read_text(encoding="utf-8"))["run"]]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RecordError(f"{path} is no plan: {one_line(error)}") from error
+    if not runs:
+        raise RecordError(f"{path}: there is no [[run]]")
     if len({r.folder() for r in runs}) != len(runs):
         raise RecordError(f"{path}: a run is listed twice")
     return runs
@@ -111,8 +139,8 @@ def variant_of(scene, sets, plan):
 
 def run_of(directory, plan=()):
     """Which run of which case a run directory of demvof holds: Run, case hash."""
+    facts = facts_of(directory / "run.json")
     try:
-        facts = json.loads((directory / "run.json").read_text())
         if facts["program"] != "demvof":
             raise RecordError(f"{directory} is a run of {facts['program']}, not of demvof")
         words = facts["command"].split()
@@ -121,8 +149,8 @@ def run_of(directory, plan=()):
         run = Run(facts["scene"], int(facts["monitors"]["seed"]), "--gate-closed" in words, variant=variant, set=sets,
                   chute="chute" in words)
         return run, facts["case_hash"]
-    except (OSError, ValueError, KeyError) as error:
-        raise RecordError(f"{directory} holds no run of demvof: {error}") from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise RecordError(f"{directory} holds no run of demvof: {one_line(error)}") from error
 
 
 def state(run, case_hash, results=RESULTS):
@@ -173,9 +201,81 @@ def slim_series(source, target):
     target.write_text("".join(",".join(row) + "\n" for row in [header, *rows]))
 
 
+def read_series(path):
+    """Header and rows of a series.csv, as texts. RecordError where it is damaged."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            text = file.read()
+        header, *rows = csv.reader(text.splitlines(), strict=True)
+        times = [float(row[0]) for row in rows]
+    except (OSError, ValueError, IndexError, csv.Error) as error:
+        raise RecordError(f"{path} cannot be read: {error}") from error
+    if not text.endswith("\n") or len(rows) < 2 or any(len(row) != len(header) for row in rows):
+        raise RecordError(f"{path} is cut: not every row is whole")
+    if any(later <= earlier for earlier, later in zip(times, times[1:])):
+        raise RecordError(f"{path}: time does not ascend")
+    return header, rows
+
+
+def instants_of(path):
+    """How many instants a fields.h5 holds. RecordError where it is damaged."""
+    try:
+        with h5py.File(path) as file:
+            return len([file[name].attrs["time"] for name in file])
+    except (OSError, KeyError) as error:
+        raise RecordError(f"{path} cannot be read: {error}") from error
+
+
+def stated_files(folder):
+    """What run.json and record.json say of the files beside them: rows, end, columns and SHA-256 of series.csv, instants and
+    SHA-256 of fields.h5 where there is one."""
+    def digest(path):
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+
+    series, fields = folder / "series.csv", folder / "fields.h5"
+    header, rows = read_series(series)
+    stated = {"series.csv": {"rows": len(rows), "end": float(rows[-1][0]), "columns": header, "sha256": digest(series)}}
+    if fields.exists():
+        stated["fields.h5"] = {"instants": instants_of(fields), "sha256": digest(fields)}
+    return stated
+
+
+def require_files(folder, facts):
+    """RecordError unless the files of `folder` are those that `facts` (run.json or record.json) state."""
+    if "files" not in facts:
+        raise RecordError(f"{folder} was made by an earlier version, which did not say what it wrote")
+    if not isinstance(facts["files"], dict):
+        raise RecordError(f"{folder}: 'files' is no table")
+    found = stated_files(folder)
+    for name in {*found, *facts["files"]}:
+        if found.get(name) != facts["files"].get(name):
+            raise RecordError(f"{folder / name} is not the file that was written")
+
+
+def write_json(path, facts):
+    draft = path.with_name(path.name + ".part")
+    draft.write_text(json.dumps(facts, indent=2) + "\n", encoding="utf-8")
+    draft.replace(path)
+
+
+def state_files(folder):
+    """Adds what is said of the files to a record that was made before records said it; True if it was missing. The files are
+    taken as they are: that they are those that were written rests on the history of the repository alone, and is said so."""
+    path = folder / "record.json"
+    facts = facts_of(path)
+    if "files" in facts:
+        return False
+    facts["files"] = stated_files(folder)
+    facts["files_stated"] = "afterwards, from the files as they were in the repository"
+    write_json(path, facts)
+    return True
+
+
 def slim_record(folder):
     """Rewrites series.csv and fields.h5 of a record to what a record keeps. True if that made them smaller."""
     smaller = False
+    facts = facts_of(folder / "record.json")
+    require_files(folder, facts)
     for name, slim in (("series.csv", slim_series), ("fields.h5", slim_fields)):
         path, draft = folder / name, folder / (name + ".part")
         if not path.exists():
@@ -186,12 +286,15 @@ def slim_record(folder):
             smaller = True
         else:
             draft.unlink()
+    if smaller:
+        write_json(folder / "record.json", facts | {"files": stated_files(folder)})
     return smaller
 
 
 def make_record(run, run_directory, case_hash, results=RESULTS):
-    """Turns a finished run into a record; replaces an older one only when all is written."""
-    facts = json.loads((run_directory / "run.json").read_text())
+    """Turns a finished run, whose files are those that it wrote, into a record; replaces an older one only when all is
+    written."""
+    facts = facts_of(run_directory / "run.json")
     if facts["exit"]["state"] != "finished":
         raise RecordError(f"{run.name}: no record, the run {facts['exit']['state']}: {facts['exit']['reason']}")
     facts["run_hash"] = facts["case_hash"]
@@ -201,6 +304,7 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     facts["gate_closed"] = run.gate_closed
     facts["variant"] = run.variant
     facts["parts"] = {package: package_version(package) for package in PACKAGES}
+    require_files(run_directory, facts)
     folder = run.folder(results)
     draft = folder.with_name(folder.name + ".part")
     shutil.rmtree(draft, ignore_errors=True)
@@ -208,6 +312,7 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     slim_series(run_directory / "series.csv", draft / "series.csv")
     if not run.chute:
         slim_fields(run_directory / "fields.h5", draft / "fields.h5")
+    facts["files"] = stated_files(draft)
     (draft / "record.json").write_text(json.dumps(facts, indent=2) + "\n")
     shutil.rmtree(folder, ignore_errors=True)
     draft.rename(folder)

@@ -24,10 +24,20 @@ class Blessing:
 
 
 def read(path: Path) -> list[Blessing]:
+    """All blessings; none where there is no file. ValueError, one line, where it is damaged."""
     if not path.exists():
         return []
-    with path.open(newline="", encoding="utf-8") as file:
-        return [Blessing(**row) for row in csv.DictReader(file)]
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = csv.DictReader(file, strict=True)
+            if list(rows.fieldnames or []) != [field.name for field in fields(Blessing)]:
+                raise ValueError("its columns are not those of a list of blessings")
+            read_rows = [Blessing(**row) for row in rows]
+        if any(value is None for row in read_rows for value in astuple(row)):
+            raise ValueError("a row is cut")
+        return read_rows
+    except (OSError, ValueError, TypeError, csv.Error) as error:
+        raise ValueError(f"{path} cannot be read: {' '.join(str(error).split())}") from error
 
 
 def check_reason(reason: str) -> str:

@@ -88,10 +88,16 @@ class Point:
 
 
 class History:
-    """Opens or creates the file. Raises ValueError if it was written by another version of the schema."""
+    """Opens or creates the file. Raises ValueError if it is damaged or was written by another version of the schema."""
 
     def __init__(self, path: Path):
         path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            self._open(path)
+        except sqlite3.Error as error:
+            raise ValueError(f"{path} is no history of the nightly run: {error}") from error
+
+    def _open(self, path: Path) -> None:
         self._db = sqlite3.connect(path, timeout=60)
         self._db.execute("pragma foreign_keys = on")
         version = self._db.execute("pragma user_version").fetchone()[0]

@@ -20,10 +20,22 @@ def _number(value: object, where: str) -> float | None:
 
 def read_verification(path: Path) -> tuple[list[Metric], list[Cost], list[str]]:
     """Metrics and core-seconds of a results.json, and the runs it could not use; all empty where there is none (the stage
-    did not get so far)."""
+    did not get so far). ValueError, one line, where it is damaged."""
     if not path.exists():
         return [], [], []
-    data = json.loads(path.read_text(encoding="utf-8"))
+    try:
+        return _verification(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise _damaged(path, error) from error
+
+
+def _damaged(path: Path, error: Exception) -> ValueError:
+    return ValueError(f"{path} cannot be read: " + " ".join(f"{type(error).__name__}: {error}".split()))
+
+
+def _verification(data: dict) -> tuple[list[Metric], list[Cost], list[str]]:
+    if not data["results"]:
+        raise ValueError("there is no row in it")
     metrics = [
         Metric(r["id"], r["scene"], r["metric"], r["unit"], _number(r["value"], r["id"]),
                _number(r["reference"], r["id"]), r["verdict"], bool(r["unexpected"]))
@@ -40,8 +52,12 @@ def read_verification(path: Path) -> tuple[list[Metric], list[Cost], list[str]]:
 
 
 def read_times(path: Path) -> list[Cost]:
-    """Costs of a times.json: {"name": {"value": seconds, "unit": "s"}, ...}; empty where there is none."""
+    """Costs of a times.json: {"name": {"value": seconds, "unit": "s"}, ...}; empty where there is none. ValueError, one
+    line, where it is damaged."""
     if not path.exists():
         return []
-    data = json.loads(path.read_text(encoding="utf-8"))
-    return [Cost(name, entry["unit"], float(entry["value"])) for name, entry in data.items()]
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        return [Cost(name, entry["unit"], float(entry["value"])) for name, entry in data.items()]
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise _damaged(path, error) from error

@@ -6,13 +6,17 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable, Sequence
 
+from night.together import ends_with_parent
+
+GUARD = str(Path(__file__).resolve().parent / "guard.py")
 PASSED, FAILED, TIMED_OUT, BLOCKED, NOT_AVAILABLE = "passed", "failed", "timed out", "blocked", "not available"
-GRACE = 10.0  # seconds between the polite and the hard end of a stage that takes too long
+GRACE = 15.0  # longer than the guard's own; seconds between the polite and the hard end of a stage that takes too long
 
 
 @dataclass(frozen=True)
@@ -47,9 +51,14 @@ class StageRun:
 
     @classmethod
     def load(cls, directory: Path) -> "StageRun":
-        data = json.loads((directory / "state.json").read_text(encoding="utf-8"))
-        outcomes = {name: Outcome(**outcome) for name, outcome in data["outcomes"].items()}
-        return cls(directory, data["facts"], outcomes, data["finished"])
+        """ValueError, one line, where its state is damaged."""
+        path = directory / "state.json"
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+            outcomes = {name: Outcome(**outcome) for name, outcome in data["outcomes"].items()}
+            return cls(directory, data["facts"], outcomes, data["finished"])
+        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ValueError(f"{path} cannot be read ({' '.join(str(error).split())}); --fresh starts anew") from error
 
     def save(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
@@ -81,8 +90,9 @@ def _run_commands(stage: Stage, log_path: Path) -> str:
             log.write(f"$ {' '.join(command)}\n")
             log.flush()
             try:
-                process = subprocess.Popen(command, cwd=stage.directory, stdin=subprocess.DEVNULL, stdout=log,
-                                           stderr=subprocess.STDOUT, start_new_session=True)
+                process = subprocess.Popen([sys.executable, GUARD, *command], cwd=stage.directory, stdin=subprocess.DEVNULL,
+                                           stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
+                                           preexec_fn=ends_with_parent)
             except OSError as error:
                 log.write(f"{error}\n")
                 return FAILED

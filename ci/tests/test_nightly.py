@@ -41,12 +41,12 @@ def git(repository, *arguments):
 def repository(tmp_path):
     root = tmp_path / "repository"
     (root / "ci").mkdir(parents=True)
-    (root / "compare").mkdir()
+    (root / "compare/report").mkdir(parents=True)
     shutil.copytree(CI / "night", root / "ci/night", ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("nightly", "bless"):
         shutil.copy(CI / name, root / "ci" / name)
     scripts = {"ci/setup": "#!/bin/sh\n", "ci/build": "#!/bin/sh\nmkdir -p build\n", "ci/bench": "#!/bin/sh\n",
-               "ci/performance": PERFORMANCE, "compare/verify": VERIFY}
+               "ci/performance": PERFORMANCE, "compare/verify": VERIFY, "compare/report/trust_table.py": "#!/bin/sh\n"}
     for name, text in scripts.items():
         (root / name).write_text(text)
         (root / name).chmod(0o755)
@@ -168,6 +168,16 @@ def test_findings_of_sanitizers_and_lint_are_named_and_the_rest_runs(repository)
     done = nightly(repository)
     assert done.returncode == 1
     assert "stages not passed: sanitize: failed, tidy: failed" in done.stdout and "6/9 verify       passed" in done.stdout
+
+
+def test_a_readme_that_states_other_results_is_red(repository):
+    (repository / "compare/report/trust_table.py").write_text('#!/bin/sh\necho "$@: kept 2.1; now 2.16"\nexit 1\n')
+    commit(repository)
+    done = nightly(repository)
+    assert done.returncode == 1
+    assert "stages not passed: verify: failed" in done.stdout
+    run = next((repository / "out/nightly/runs").iterdir())
+    assert "--check --verify out/verify: kept 2.1; now 2.16" in (run / "6-verify.log").read_text()
 
 
 def test_a_run_that_failed_is_named(repository):

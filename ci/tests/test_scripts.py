@@ -100,3 +100,32 @@ def test_help_lists_the_targets():
     assert done.returncode == 0
     for target in ("verify", "test", "reference", "plots", "nightly", "bench", "format", "help"):
         assert f"make {target} " in done.stdout
+
+
+def test_a_build_folder_of_another_place_is_named(bare):
+    (bare / "build/release").mkdir(parents=True)
+    (bare / "build/release/CMakeCache.txt").write_text("CMAKE_HOME_DIRECTORY:INTERNAL=/somewhere/else\n")
+    done = call("ci/build", "release", cwd=bare)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1 and "/somewhere/else" in done.stderr and "rm -r build/release" in done.stderr
+    assert "CMake" not in done.stderr
+
+
+def test_a_place_with_blanks_is_one_argument(bare):
+    programs_of_verify = bare / "compare"
+    programs_of_verify.mkdir()
+    (programs_of_verify / "verify").write_text('#!/bin/sh\nprintf "%s\\n" "$@"\n')
+    (programs_of_verify / "verify").chmod(0o755)
+    (bare / "ci/build").write_text("#!/bin/sh\n")
+    for target in ("verify", "plots"):
+        done = call("make", "-s", target, "OUT=a place/with blanks", cwd=bare)
+        assert "a place/with blanks" in done.stdout.splitlines(), done
+
+
+def test_what_is_left_out_with_the_reference_is_named_to_verify(bare):
+    (bare / "compare").mkdir()
+    (bare / "compare/verify").write_text('#!/bin/sh\nprintf "%s\\n" "$@"\n')
+    (bare / "compare/verify").chmod(0o755)
+    (bare / "ci/build").write_text("#!/bin/sh\n")
+    assert "--without-canary" in call("make", "-s", "verify", "REFERENCE=off", cwd=bare).stdout
+    assert "--without-canary" not in call("make", "-s", "verify", cwd=bare).stdout

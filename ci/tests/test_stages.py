@@ -1,8 +1,11 @@
 """Stages: order, logs, time limits, blocking, resuming."""
 
 import os
+import signal
+import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +13,7 @@ from night import stages
 from night.stages import Stage, StageRun, run_stages
 
 PYTHON = sys.executable
+CI = Path(stages.__file__).resolve().parent.parent
 
 
 def execute(tmp_path, plan, run=None):
@@ -109,3 +113,43 @@ def test_stage_reads_no_terminal(tmp_path):
     run = execute(tmp_path, [Stage("input", tmp_path, 20, [["cat"]])])
     assert status(run) == {"input": "passed"}
     assert os.path.getsize(run.directory / "1-input.log") < 20
+
+
+def alive(mark):
+    """Processes whose command line holds a text, this one not among them."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if mark.encode() in entry.read_bytes() and int(entry.parent.name) != os.getpid():
+                found.append(int(entry.parent.name))
+        except OSError:
+            pass  # it ended just now
+    return found
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+def test_nothing_outlives_a_night_that_is_ended(tmp_path, number):
+    """Not even what a script of a stage left in the background, or started in turn."""
+    mark = str(tmp_path / "mark")
+    Path(mark).touch()
+    text = f"tail -f {mark} & sh -c 'tail -f {mark}; true'; true"
+    night = subprocess.Popen([PYTHON, "-c", f"""
+import sys
+sys.path.insert(0, {str(CI)!r})
+from pathlib import Path
+from night.stages import Stage, StageRun, run_stages
+from night.together import end_cleanly_on_signals
+end_cleanly_on_signals()
+run = StageRun(Path({str(tmp_path / 'run')!r}))
+run.save()
+run_stages([Stage("one", Path({str(tmp_path)!r}), 600, [["sh", "-c", {text!r}]])], run, print)
+"""])
+    tails = lambda: [pid for pid in alive(mark) if Path(f"/proc/{pid}/comm").read_text() == "tail\n"]  # noqa: E731
+    deadline = time.monotonic() + 60
+    while len(tails()) < 2 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    night.send_signal(number)
+    night.wait(30)
+    while alive(mark) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not alive(mark)

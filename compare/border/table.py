@@ -95,10 +95,14 @@ def read_axis(entry, scenes, path):
 
 
 def read(path):
+    """The table of a file; TableError, one line, for whatever is wrong with it."""
     try:
-        data = tomllib.loads(path.read_text())
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise TableError(f"{path}: {error}") from error
+        return read_data(tomllib.loads(path.read_text(encoding="utf-8")), path)
+    except (OSError, ValueError, TypeError, AttributeError) as error:  # a value of another kind than it is taken for
+        raise TableError(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def read_data(data, path):
     refuse_unknown(data, ["bisections", "methods", "scene", "axis", "point"], path)
     scenes = {}
     for name, entry in data.get("scene", {}).items():
@@ -116,5 +120,8 @@ def read(path):
             raise TableError(f"{where}: scene {scene} given; there are {', '.join(scenes)}")
         points.append(Point(need(entry, "name", where, str), scenes[scene], need(entry, "set", where, list),
                             entry.get("allow", []), entry.get("note", ""), entry.get("known", [])))
-    return Table(data.get("methods", {}), [read_axis(entry, scenes, path) for entry in data.get("axis", [])], points,
+    axes = [read_axis(entry, scenes, path) for entry in data.get("axis", [])]
+    if not axes and not points:
+        raise TableError(f"{path}: there is no [[axis]] and no [[point]]")
+    return Table(data.get("methods", {}), axes, points,
                  int(data.get("bisections", 4)))

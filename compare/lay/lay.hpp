@@ -30,7 +30,7 @@ struct LaidCurve {
 // file and line, std::invalid_argument naming a column that is unknown or in another unit.
 Run read_their_series(const std::filesystem::path& file, const Scene& scene);
 
-// Reads the fields of others (fields.h5 of README.md, "Output") and extracts every scalar with the code that
+// Reads the fields of others (fields.h5 of docs/output.md) and extracts every scalar with the code that
 // serves our own runs. Throws OutputError, std::invalid_argument if their box is not the scene's tank.
 Run read_their_fields(const std::filesystem::path& file, const Scene& scene);
 

@@ -17,6 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from report import style  # noqa: E402
+from report.results import Damaged, read_json  # noqa: E402
 from report.style import plt  # noqa: E402
 
 LOWEST = 1e-4  # relative; an error below it is drawn there, as is one far inside the reference's own uncertainty
@@ -25,17 +26,17 @@ LOWEST = 1e-4  # relative; an error below it is drawn there, as is one far insid
 def load(directory):
     """Content of points.json; None where there is none."""
     path = Path(directory) / "points.json"
-    return json.loads(path.read_text()) if path.exists() else None
+    return read_json(path, "charts", "methods", "date") if path.exists() else None
 
 
 def ablations(directory):
     """What `granvof-compare ablate` left below `directory`, one entry a scene, in the order of their names."""
-    return [json.loads(path.read_text()) for path in sorted(Path(directory).glob("*/ablate.json"))]
+    return [read_json(path, "scene", "rows", "metrics") for path in sorted(Path(directory).glob("*/ablate.json"))]
 
 
 def advices(directory):
     """What `granvof-compare advise` left in `directory`, one entry a scene."""
-    return [json.loads(path.read_text()) for path in sorted(Path(directory).glob("*.json"))]
+    return [read_json(path, "scene", "steps", "summary") for path in sorted(Path(directory).glob("*.json"))]
 
 
 def look(methods):
@@ -230,10 +231,19 @@ def main(arguments):
     parser.add_argument("--picture", type=Path, help="write the picture of one scene here too (PNG, few bytes)")
     parser.add_argument("--scene", default="s1", help="the scene of --picture (s1)")
     options = parser.parse_args(arguments)
-    content = load(options.charts)
-    if content is None:
-        print(f"charts: no points.json in {options.charts}; run `make charts` first", file=sys.stderr)
+    try:
+        content = load(options.charts)
+        if content is None:
+            print(f"charts: no points.json in {options.charts}; run `make charts` first", file=sys.stderr)
+            return 2
+        return write(content, options)
+    except Damaged as error:
+        print(f"charts: {error}", file=sys.stderr)
         return 2
+
+
+def write(content, options):
+    """Pictures, the section, and what was asked for beside them; Damaged where a file of a study is."""
     beside = options.charts.resolve().parent
     names = make_section(options.charts, content, options.ablations or beside / "ablate", options.advice or beside / "advise")
     if options.keep:
@@ -307,10 +317,11 @@ def keep(options, beside):
 
 
 def shrink(source, target):
-    """A copy of 900 pixels in 256 colours."""
+    """A copy of at most 900 pixels in 256 colours."""
     from PIL import Image
     image = Image.open(source).convert("RGB")
-    image = image.resize((900, round(image.height * 900 / image.width)), Image.LANCZOS)
+    width = min(image.width, 900)
+    image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
     image.quantize(256, method=Image.Quantize.FASTOCTREE).save(target, optimize=True)  # keeps the colours of the lines
 
 

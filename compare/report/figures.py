@@ -46,10 +46,10 @@ def draw_all(results, directory, kept=None):
     """All plots that the results allow, as names in the order of the page; `kept` holds results of earlier studies."""
     names = []
     for plot in PLOTS:
-        names += plot(results, directory)
-    names += stability.map_plot(stability.load(results.directory, kept), directory)
+        names += results.shown(lambda: plot(results, directory)) or []
+    names += results.shown(lambda: stability.map_plot(stability.load(results.directory, kept), directory)) or []
     for run in results.curves:
-        names += energy.energy_plot(results, run, directory)
+        names += results.shown(lambda: energy.energy_plot(results, run, directory)) or []
     for run in results.curves:
-        names += snapshot_plot(results, run, directory)
+        names += results.shown(lambda: snapshot_plot(results, run, directory)) or []
     return names

@@ -9,7 +9,7 @@ from report import figures, style
 from report.film import film
 from report.results import changes
 
-ORDER = ["differs", "stale", "not run", "expected failure", "within band", "agrees"]
+ORDER = ["error", "differs", "stale", "not run", "expected failure", "within band", "agrees"]
 
 
 def render(results, plots, sections=()):
@@ -18,6 +18,7 @@ def render(results, plots, sections=()):
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["number"] = number
     environment.filters["slug"] = lambda text: text.replace(" ", "-")
+    moving = films(results)  # first: it adds to what is damaged
     counts = {verdict: sum(row["verdict"] == verdict for row in results.rows) for verdict in ORDER}
     return environment.get_template("page.html").render(
         date=results.date,
@@ -30,7 +31,8 @@ def render(results, plots, sections=()):
         counts=[(verdict, count) for verdict, count in counts.items() if count],
         rows=sorted(results.rows, key=lambda row: (not row["unexpected"], ORDER.index(row["verdict"]))),
         runs=[run_facts(run) for run in results.runs.values()],
-        films=films(results),
+        films=moving,
+        damaged=results.damaged,
         sections=sections,
         plots=[{"name": name, "caption": figures.caption(name),
                 "data": encoded(results.directory / "plots" / f"{name}.png")} for name in plots])
@@ -40,7 +42,7 @@ def films(results):
     """Films of the runs that have one; written beside the plots too."""
     made = []
     for run, entry in results.curves.items():
-        moving = film(entry)
+        moving = results.shown(lambda: film(entry))
         if moving is None:
             continue
         (results.directory / "plots").mkdir(exist_ok=True)

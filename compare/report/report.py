@@ -18,21 +18,28 @@ def main(arguments):
     parser.add_argument("--cases", type=Path, default=ROOT / "cases", help="case files, with published/")
     parser.add_argument("--kept", type=Path, default=ROOT / "compare/kept", help="results of earlier studies, for what was not run")
     options = parser.parse_args(arguments)
-    loaded = results.load(options.verify, options.cases)
+    try:
+        loaded = results.load(options.verify, options.cases)
+        return write(loaded, options)
+    except results.Damaged as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 2
+
+
+def write(loaded, options):
+    """Plots and page of what was loaded; Damaged where a section of others is damaged."""
     out = options.verify.resolve().parent
     directories = {"charts": out / "charts"}
     if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts"):
         directories["charts"] = options.verify / "kept/charts"
     if not (out / "stability/stability.json").exists():
         directories["stability"] = options.kept / "stability"
-    try:
-        others = sections.read_all(out, directories)
-    except ValueError as error:
-        print(f"report: {error}", file=sys.stderr)
-        return 2
+    others = sections.read_all(out, directories)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     (options.verify / "report.html").write_text(page.render(loaded, plots, others), encoding="utf-8")
-    return 0
+    for sentence in loaded.damaged:
+        print(f"report: {sentence}", file=sys.stderr)
+    return 1 if loaded.damaged else 0
 
 
 if __name__ == "__main__":

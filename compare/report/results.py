@@ -8,6 +8,30 @@ import h5py
 import numpy as np
 
 
+class Damaged(ValueError):
+    """A file that cannot be read or does not hold what it must: which, and why, in one line."""
+
+    def __init__(self, path, error):
+        super().__init__(f"{path} cannot be shown: " + " ".join(f"{type(error).__name__}: {error}".split()))
+
+
+# What reading a file that others wrote may raise.
+OF_READING = (OSError, ValueError, KeyError, IndexError, TypeError, AttributeError, RuntimeError)
+
+
+def read_json(path, *needed):
+    """A JSON object that has these keys. Damaged where it is none."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if not isinstance(content, dict):
+            raise ValueError("no JSON object")
+        for key in needed:
+            content[key]
+        return content
+    except OF_READING as error:
+        raise Damaged(path, error) from error
+
+
 @dataclass
 class Results:
     directory: Path
@@ -20,6 +44,7 @@ class Results:
     curves: dict = field(default_factory=dict)  # id -> {"scene", "directory", "curves"}
     records: dict = field(default_factory=dict)  # scene -> variant -> the same
     peers: dict = field(default_factory=dict)  # run -> stock program -> the same
+    damaged: list = field(default_factory=list)  # what could not be shown, and why: one sentence each
     cases: Path = Path("cases")  # directory of the case files, with published/
 
     def row(self, scene, metric):
@@ -35,10 +60,22 @@ class Results:
         path = self.cases / "published" / file
         if not path.exists():
             return None
-        lines = [line.split("\t") for line in path.read_text().splitlines() if line and not line.startswith("#")]
-        index = [name.split(" [")[0] for name in lines[0]].index(column)
-        values = np.array([[float(line[0]), float(line[index])] for line in lines[1:]])
-        return values[:, 0], values[:, 1]
+        try:
+            lines = [line.split("\t") for line in path.read_text().splitlines() if line and not line.startswith("#")]
+            index = [name.split(" [")[0] for name in lines[0]].index(column)
+            values = np.array([[float(line[0]), float(line[index])] for line in lines[1:]])
+            return values[:, 0], values[:, 1]
+        except OF_READING as error:
+            raise Damaged(path, error) from error
+
+    def shown(self, make):
+        """What `make` gives; nothing where a file it needs is damaged, and then a sentence says so."""
+        try:
+            return make()
+        except Damaged as error:
+            if str(error) not in self.damaged:
+                self.damaged.append(str(error))
+            return None
 
     def facts(self, *names):
         return [self.runs[name] for name in names if name in self.runs]
@@ -50,19 +87,41 @@ def arrays(entry, name):
 
 
 def load(directory, cases=Path("cases")):
-    """Reads results.json, curves.json and, if there is one, results.previous.json of a directory."""
-    results = json.loads((directory / "results.json").read_text())
-    loaded = Results(directory, results["date"], results["frequency"], results["results"],
-                     {run["id"]: run for run in results["runs"]})
+    """Reads results.json, curves.json and, if there is one, results.previous.json of a directory. Damaged where one of the
+    first two is; of the last it is only said."""
+    results = read_json(directory / "results.json", "date", "frequency")
+    try:
+        loaded = Results(directory, results["date"], results["frequency"], rows_of(results),
+                         {run["id"]: run for run in results["runs"]})
+    except OF_READING as error:
+        raise Damaged(directory / "results.json", error) from error
     loaded.cases = cases
-    curves = json.loads((directory / "curves.json").read_text())
+    curves = read_json(directory / "curves.json", "runs", "records")
     loaded.curves, loaded.records, loaded.peers = curves["runs"], curves["records"], curves.get("peers", {})
     before = directory / "results.previous.json"
     if before.exists():
-        previous = json.loads(before.read_text())
-        loaded.previous = {row["id"]: row for row in previous["results"]}
-        loaded.previous_date = previous["date"]
+        previous = loaded.shown(lambda: read_previous(before))
+        if previous:
+            loaded.previous, loaded.previous_date = previous
     return loaded
+
+
+def rows_of(results):
+    """The rows of a results.json, each with what the page shows of it."""
+    if not results["results"]:
+        raise ValueError("there is no row in it")
+    for row in results["results"]:
+        for key in ("id", "scene", "metric", "verdict", "value", "reference", "unit"):
+            row[key]
+    return results["results"]
+
+
+def read_previous(path):
+    content = read_json(path, "date")
+    try:
+        return {row["id"]: row for row in rows_of(content)}, content["date"]
+    except OF_READING as error:
+        raise Damaged(path, error) from error
 
 
 def changes(results, relative=1e-3):
@@ -102,8 +161,11 @@ def snapshots(run):
     path = Path(run["directory"]) / "fields.h5"
     if not path.exists():
         return
-    with h5py.File(path, "r") as file:
-        groups = [file[name] for name in file if "f_s" in file[name]]
-        for group in sorted(groups, key=lambda g: float(g.attrs["time"])):
-            flat = [np.asarray(group[name]).mean(axis=0) if name in group else None for name in ("f_s", "alpha", "phi")]
-            yield float(group.attrs["time"]), *flat
+    try:
+        with h5py.File(path, "r") as file:
+            groups = [file[name] for name in file if "f_s" in file[name]]
+            for group in sorted(groups, key=lambda g: float(g.attrs["time"])):
+                flat = [np.asarray(group[name]).mean(axis=0) if name in group else None for name in ("f_s", "alpha", "phi")]
+                yield float(group.attrs["time"]), *flat
+    except OF_READING as error:
+        raise Damaged(path, error) from error

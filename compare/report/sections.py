@@ -14,6 +14,8 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from report.results import Damaged
+
 NAMES = ("charts", "stability", "energy")  # in the order of the page
 
 
@@ -29,7 +31,7 @@ class Section:
 
 def read_all(out, directories=None):
     """The sections that are there, below the directory that also holds verify/ or where `directories` has them. Raises
-    ValueError with the file's name where one is damaged."""
+    Damaged, a ValueError with the file's name, where one is."""
     places = {name: out / name for name in NAMES} | (directories or {})
     return [read(places[name]) for name in NAMES if (places[name] / f"{name}.json").exists()]
 
@@ -46,7 +48,7 @@ def read(directory):
                         for table in given.get("tables", [])],
                        ", ".join(given[key] for key in ("commit", "date") if given.get(key)))
     except (KeyError, TypeError, AttributeError, OSError, ValueError) as error:
-        raise ValueError(f"{source}: cannot be shown: {type(error).__name__}: {error}") from error
+        raise Damaged(source, error) from error
 
 
 def figure(directory, entry):

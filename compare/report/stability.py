@@ -1,11 +1,11 @@
 """The stability map: for every axis and method, how far it holds, from what compare/stability wrote."""
 
-import json
 import math
 
 import matplotlib.patches as patches
 
 from report import style
+from report.results import read_json
 from report.style import plt
 
 KINDS = {"step collapse": (style.ORANGE, "//"), "blow-up": (style.RED, "xx"),
@@ -15,7 +15,7 @@ KINDS = {"step collapse": (style.ORANGE, "//"), "blow-up": (style.RED, "xx"),
 def load(verify, kept=None):
     """What compare/stability wrote beside the directory of results, else what `kept` holds of an earlier version, or None."""
     paths = [directory / "stability/stability.json" for directory in (verify.parent, kept) if directory]
-    return next((json.loads(path.read_text()) for path in paths if path.exists()), None)
+    return next((read_json(path, "axes") for path in paths if path.exists()), None)
 
 
 def place(entry, value):

@@ -33,7 +33,7 @@ def case(tmp_path):
 
 
 def test_fields_keep_their_place_and_order(case, tmp_path):
-    assert from_openfoam.convert(case, tmp_path / "theirs.h5") == 3
+    assert from_openfoam.convert(case, tmp_path / "theirs.h5") == ["3 instants, 0 to 10 s, on 4 x 2 x 1 cells"]
     with h5py.File(tmp_path / "theirs.h5") as file:
         assert file.attrs["cells"].tolist() == [4, 2, 1]
         assert np.allclose(file.attrs["spacing"], 0.1)
@@ -85,6 +85,51 @@ def test_a_field_of_another_size_or_in_binary_is_refused(case):
 
 def test_which_liquid_must_be_clear(case):
     (case / "0.5/alpha.water").rename(case / "0.5/alpha.oil")
-    assert from_openfoam.convert(case, case / "theirs.h5") == 3
+    assert from_openfoam.convert(case, case / "theirs.h5")[0].startswith("3 instants")
     (case / "0.5/alpha.air").write_text(field(range(8)))
     assert "one field alpha.* is needed, there are 2" in refusal(case)
+
+
+# Names of an Euler-Euler program: no free surface, a velocity each.
+EULER = {"f_s": "alpha.a", "u_s": "U.a", "u_c": "U.b"}
+
+
+def two_phases(case):
+    for time in ("0", "0.5", "10"):
+        (case / time / "alpha.water").unlink()
+        (case / time / "U").rename(case / time / "U.b")
+        (case / time / "alpha.a").write_text(field([0.1 * i for i in range(8)]))
+        (case / time / "U.a").write_text(field([(0, i, 0) for i in range(8)], "vector"))
+
+
+def test_names_can_be_mapped(case):
+    two_phases(case)
+    said = from_openfoam.convert(case, case / "theirs.h5", EULER)
+    assert said == ["3 instants, 0 to 10 s, on 4 x 2 x 1 cells", "f_s is alpha.a", "u_s is U.a", "u_c is U.b",
+                    "no other alpha.*: all is liquid between the grains"]
+    with h5py.File(case / "theirs.h5") as file:
+        assert file["t0001/f_s"][0, 1, 2] == pytest.approx(0.6)
+        assert file["t0001/u_s"][0, 1, 2].tolist() == [0, 6, 0]
+        assert file["t0001/u_c"][0, 1, 2].tolist() == [6, -6, 0]
+        assert (file["t0001/alpha"][:] == 1).all()
+
+
+def refused_map(case, names):
+    with pytest.raises(from_openfoam.CaseError) as error:
+        from_openfoam.convert(case, case / "theirs.h5", names)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_a_name_that_is_not_there_is_refused(case):
+    two_phases(case)
+    assert "alpha.sand is missing; there are: U.a, U.b, alpha.a" in refused_map(case, EULER | {"f_s": "alpha.sand"})
+    assert "'speed' given; allowed: alpha, f_s" in refused_map(case, {"speed": "U.a"})
+    assert "no output times with U.c" in refused_map(case, EULER | {"u_c": "U.c"})
+
+
+def test_text_where_a_number_belongs_is_one_line(case):
+    (case / "0.5/alpha.water").write_text(field(range(7)).replace("3", "three") + "x")
+    assert "three" in refused_map(case, {}) or "numbers for" in refused_map(case, {})
+    (case / "0.5/alpha.water").write_bytes(b"\xff\xfe\x00\x01")
+    assert refused_map(case, {})

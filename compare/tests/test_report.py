@@ -219,7 +219,7 @@ def test_sections_of_others_are_shown(tmp_path, verify_directory):
 @pytest.mark.parametrize("content", [{}, {"title": "t", "figures": [{"file": "gone.png", "caption": "c"}]}, {"title": "t", "tables": [{}]}])
 def test_a_damaged_section_is_refused_by_name(tmp_path, content):
     write_section(tmp_path, **content)
-    with pytest.raises(ValueError, match="charts.json: cannot be shown"):
+    with pytest.raises(ValueError, match="charts.json cannot be shown"):
         sections.read_all(tmp_path)
 
 
@@ -232,3 +232,51 @@ def test_a_damaged_section_ends_the_report(verify_directory, capsys):
 @pytest.mark.parametrize("value, text", [(None, "–"), ("text", "text"), (1.23456, "1.235"), (1e-12, "1e-12")])
 def test_numbers(value, text):
     assert page.number(value) == text
+
+
+def report_of(directory):
+    return report.main(["--verify", str(directory), "--kept", str(directory / "nothing")])
+
+
+def test_a_truncated_fields_file_is_a_sentence_of_the_report(verify_directory, capsys):
+    path = verify_directory.parent / "runs/s1/fields.h5"
+    path.write_bytes(path.read_bytes()[:1000])
+    assert report_of(verify_directory) == 1  # what could not be shown is no success
+    text = (verify_directory / "report.html").read_text()
+    assert "1 file could not be shown" in text and "runs/s1/fields.h5 cannot be shown" in text
+    assert "snapshots-float-full-r02" in text  # the others are
+    said = capsys.readouterr().err
+    assert "fields.h5 cannot be shown" in said and "Traceback" not in said
+
+
+@pytest.mark.parametrize("name", ["results.json", "curves.json"])
+@pytest.mark.parametrize("content", [b"", b"{", b"[]", b"{}", b'{"date": 1, "results": []}', b"\xff\x00"])
+def test_damaged_results_are_one_line(verify_directory, capsys, name, content):
+    (verify_directory / name).write_bytes(content)
+    assert report_of(verify_directory) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and name in said and "Traceback" not in said
+
+
+def test_a_damaged_earlier_comparison_is_a_sentence(verify_directory):
+    (verify_directory / "results.previous.json").write_text('{"date": "2026')
+    assert report_of(verify_directory) == 1
+    assert "results.previous.json cannot be shown" in (verify_directory / "report.html").read_text()
+
+
+def test_a_damaged_published_series_is_a_sentence(verify_directory, tmp_path):
+    (tmp_path / "cases/published").mkdir(parents=True)
+    (tmp_path / "cases/published/martin_moyce_1952.tsv").write_text("tau\tdelta\n1\n")
+    arguments = ["--verify", str(verify_directory), "--kept", str(tmp_path / "nothing"), "--cases", str(tmp_path / "cases")]
+    assert report.main(arguments) == 1
+    assert "martin_moyce_1952.tsv cannot be shown" in (verify_directory / "report.html").read_text()
+
+
+def test_an_error_is_shown_as_one(verify_directory, make_row):
+    content = json.loads((verify_directory / "results.json").read_text())
+    content["results"].append(make_row(id="e", verdict="error", value=None, reference=None, deviation=None, distance=None,
+                                       note="it has 60 whole rows, written were 178"))
+    (verify_directory / "results.json").write_text(json.dumps(content))
+    assert report_of(verify_directory) == 0
+    text = (verify_directory / "report.html").read_text()
+    assert 'class="verdict error"' in text and "60 whole rows" in text

@@ -2,7 +2,11 @@
 
 import importlib.machinery
 import importlib.util
+import json
+import signal
 import stat
+import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -52,7 +56,7 @@ def test_the_canary_can_be_left_out(verify, tmp_path, monkeypatch):
     assert verify.main([*arguments, "--without-canary"]) == 0
     assert verify.main(arguments) == 0
     without, with_it = (tmp_path / "checked").read_text().splitlines()
-    assert "--canary" not in without and with_it.endswith("--canary agrees --canary-note said")
+    assert "--canary" not in without and without.endswith("--leave-out canary") and with_it.endswith("--canary agrees --canary-note said")
     assert len(asked) == 1
 
 
@@ -62,6 +66,22 @@ def test_a_failed_run_is_named_with_its_reason(verify, tmp_path, capsys):
     printed = capsys.readouterr()
     assert "FAILED, exit code 1: step collapse at t = 0.1 s" in printed.out
     assert "runs that failed: " in printed.err
+
+
+def test_figures_that_the_readme_no_longer_states_are_said(verify, tmp_path, capsys):
+    kept = json.loads((SCRIPT.parent / "kept/verify/results.json").read_text())["rows"][0]
+    out = tmp_path / "out/verify"
+    out.mkdir(parents=True)
+    arguments = stand_ins(tmp_path)
+
+    def run_with(verdict):
+        results = {"date": "", "frequency": "short", "runs": [], "results": [kept | {"verdict": verdict}]}
+        (out / "results.json").write_text(json.dumps(results))
+        assert verify.main(arguments) == 0, "verdicts decide the exit code, the README does not"
+        return capsys.readouterr().out
+
+    assert "README" not in run_with(kept["verdict"])
+    assert f"state other results in 1 places, as {kept['id']}: kept " in run_with("stale")
 
 
 def test_an_unexpected_verdict_is_the_exit_code(verify, tmp_path):
@@ -85,3 +105,56 @@ def test_a_missing_program_is_named(verify, tmp_path, capsys):
 def test_plots_alone_need_results(verify, tmp_path, capsys):
     assert verify.main(["--out", str(tmp_path), "--plots-only"]) == 2
     assert "no results" in capsys.readouterr().err
+
+
+def running(pattern):
+    """Process ids whose command line holds a text."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if pattern.encode() in entry.read_bytes():
+                found.append(int(entry.parent.name))
+        except OSError:
+            pass  # it ended just now
+    return found
+
+
+def wait_for(condition, seconds=30.0):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL, signal.SIGHUP, signal.SIGINT])
+def test_no_run_outlives_the_verification(tmp_path, number):
+    arguments = stand_ins(tmp_path, solver=f"exec tail -f {tmp_path}/calls {tmp_path}/mark")
+    (tmp_path / "mark").touch()
+    started = subprocess.Popen([SCRIPT, *arguments, "--without-canary"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    runs = lambda: [pid for pid in running(f"{tmp_path}/mark") if pid != started.pid]  # noqa: E731
+    wait_for(lambda: len(runs()) == 2)
+    started.send_signal(number)
+    started.wait(30)
+    wait_for(lambda: not runs(), 10)
+    assert started.returncode != 0
+
+
+def test_a_second_start_says_what_holds_the_directory(tmp_path):
+    arguments = stand_ins(tmp_path, solver="exec sleep 60")
+    first = subprocess.Popen([SCRIPT, *arguments, "--without-canary"], stdout=subprocess.DEVNULL)
+    try:
+        wait_for(lambda: (tmp_path / "calls").exists())
+        second = subprocess.run([SCRIPT, *arguments], capture_output=True, text=True)
+        assert second.returncode == 2
+        assert f"in use by compare/verify (process {first.pid})" in second.stderr and second.stderr.count("\n") == 1
+    finally:
+        first.terminate()
+        first.wait(30)
+
+
+def test_a_place_that_cannot_be_written_is_one_line(tmp_path):
+    arguments = stand_ins(tmp_path)
+    (tmp_path / "out").write_text("a file")
+    ended = subprocess.run([SCRIPT, *arguments], capture_output=True, text=True)
+    assert ended.returncode == 2
+    assert ended.stderr.count("\n") == 1 and "OUT=DIR takes another directory" in ended.stderr

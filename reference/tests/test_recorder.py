@@ -27,7 +27,65 @@ def finished_run(folder, exit_state="finished", command="demvof run cases/s1.tom
             group.attrs["time"] = float(n)
             for field in ("f_s", "alpha", "p_c", "u_c"):
                 group[field] = np.full((1, 4, 5), n, dtype="f8")
+    state_what_was_written(folder)
     return folder
+
+
+def state_what_was_written(folder):
+    path = folder / "run.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"files": recorder.stated_files(folder)}))
+
+
+def test_a_run_whose_files_are_not_those_it_wrote_is_no_record(tmp_path):
+    for number, name in enumerate(("series.csv", "fields.h5")):
+        run = finished_run(tmp_path / f"run{number}")
+        (run / name).write_bytes((run / name).read_bytes()[:-9])
+        with pytest.raises(recorder.RecordError, match=f"{name} (cannot be read|is cut|is not the file)"):
+            recorder.make_record(RUN, run, "abc", tmp_path)
+    silent = finished_run(tmp_path / "silent")
+    facts = json.loads((silent / "run.json").read_text())
+    del facts["files"]
+    (silent / "run.json").write_text(json.dumps(facts))
+    with pytest.raises(recorder.RecordError, match="earlier version"):
+        recorder.make_record(RUN, silent, "abc", tmp_path)
+    assert recorder.state(RUN, "abc", tmp_path) == "missing"
+
+
+def test_a_record_states_its_own_files(tmp_path):
+    folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
+    facts = json.loads((folder / "record.json").read_text())
+    series = facts["files"]["series.csv"]
+    assert (series["rows"], series["end"], series["columns"]) == (2, 1.0, ["time [s]", "slope [deg]"])
+    assert facts["files"]["fields.h5"]["instants"] == recorder.INSTANTS_KEPT
+    recorder.require_files(folder, facts)
+    (folder / "series.csv").write_text("time [s],slope [deg]\n0,\n1,0.333333334\n")
+    with pytest.raises(recorder.RecordError, match="series.csv is not the file that was written"):
+        recorder.require_files(folder, facts)
+
+
+def test_a_record_of_an_earlier_version_is_completed_once_and_says_so(tmp_path):
+    folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
+    facts = json.loads((folder / "record.json").read_text())
+    bare = {key: value for key, value in facts.items() if key != "files"}
+    (folder / "record.json").write_text(json.dumps(bare))
+    assert recorder.state_files(folder) and not recorder.state_files(folder)
+    now = json.loads((folder / "record.json").read_text())
+    assert now["files"] == facts["files"] and "afterwards" in now["files_stated"]
+
+
+@pytest.mark.parametrize("record", sorted(recorder.RESULTS.glob("**/record.json")), ids=lambda path: str(path.parent.relative_to(recorder.RESULTS)))
+def test_the_records_of_the_repository_are_whole(record):
+    recorder.require_files(record.parent, recorder.facts_of(record))
+
+
+@pytest.mark.parametrize("text", ["", "run = 3", "[[run]]\nscene = 's1'", "[[run]]\nseed = ", "\x00"])
+def test_a_damaged_plan_is_one_line(tmp_path, text):
+    (tmp_path / "plan.toml").write_text(text)
+    with pytest.raises(recorder.RecordError) as refused:
+        recorder.read_plan(tmp_path / "plan.toml")
+    assert "\n" not in str(refused.value)
+    with pytest.raises(recorder.RecordError):
+        recorder.read_plan(tmp_path)
 
 
 def test_the_plan_names_scenes_that_exist():
@@ -67,9 +125,14 @@ def test_a_record_of_an_earlier_version_is_slimmed_once_and_keeps_its_provenance
     slim = {path.name: path.read_bytes() for path in folder.iterdir()}
     for name in ("series.csv", "fields.h5"):
         (folder / name).write_bytes((tmp_path / "run" / name).read_bytes())
+    facts = json.loads(slim["record.json"]) | {"files": recorder.stated_files(folder)}
+    (folder / "record.json").write_text(json.dumps(facts))
     assert recorder.slim_record(folder)
     assert (folder / "series.csv").read_bytes() == slim["series.csv"]
-    assert (folder / "record.json").read_bytes() == slim["record.json"]
+    was, now = json.loads(slim["record.json"]), json.loads((folder / "record.json").read_text())
+    recorder.require_files(folder, now)
+    del was["files"]["fields.h5"]["sha256"], now["files"]["fields.h5"]["sha256"]  # HDF5 writes the second of its making
+    assert now == was
     with h5py.File(folder / "fields.h5") as file:
         assert len(file) == recorder.INSTANTS_KEPT and sorted(file["t0003"]) == sorted(recorder.FIELDS_KEPT)
     once = {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -86,8 +149,27 @@ def test_a_run_that_blew_up_leaves_no_record(tmp_path):
 
 def test_a_run_directory_says_which_run_it_holds(tmp_path):
     assert recorder.run_of(finished_run(tmp_path / "run")) == (recorder.Run("s1", 2, True), "solver's")
-    with pytest.raises(recorder.RecordError, match="no run of demvof"):
+    with pytest.raises(recorder.RecordError, match="run.json cannot be read"):
         recorder.run_of(tmp_path)
+
+
+@pytest.mark.parametrize("scene", ["../../s1", "..", ".", "/tmp/s1", "a/b", "", "-x", "s1\n", "s1\x00", 3, None])
+def test_a_scene_of_a_foreign_run_leads_out_of_nowhere(tmp_path, scene):
+    directory = finished_run(tmp_path / "run")
+    facts = json.loads((directory / "run.json").read_text()) | {"scene": scene}
+    (directory / "run.json").write_text(json.dumps(facts))
+    with pytest.raises(recorder.RecordError) as refused:
+        recorder.run_of(directory)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("content", ["", "[]", "{}", '{"program": 1}', '{"program": "demvof", "command": 3}',
+                                     '{"program": "demvof", "command": "", "scene": "s1", "monitors": []}'])
+def test_a_foreign_run_that_is_damaged_is_one_line(tmp_path, content):
+    (tmp_path / "run.json").write_text(content)
+    with pytest.raises(recorder.RecordError) as refused:
+        recorder.run_of(tmp_path)
+    assert "\n" not in str(refused.value)
 
 
 def test_control_runs_are_kept_apart(tmp_path):
@@ -110,6 +192,7 @@ def test_a_chute_has_no_fields_and_its_own_place(tmp_path):
     chute = recorder.Run("s1", 1, chute=True)
     directory = finished_run(tmp_path / "run", command=chute.command)
     (directory / "fields.h5").unlink()
+    state_what_was_written(directory)
     folder = recorder.make_record(chute, directory, "abc", tmp_path)
     assert folder == tmp_path / "bulk-friction/s1/seed1"
     assert json.loads((folder / "record.json").read_text())["command"].startswith("demvof chute")

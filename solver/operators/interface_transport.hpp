@@ -1,11 +1,11 @@
-// Liquid volume balance (24): a face value of alpha (CICSAM, or upwind) times the SAME f_c u_c flux as in
-// continuity; or the geometric flux of plic_transport.hpp, where the scene says so.
+// Liquid volume balance (2) in its form (24): a face value of alpha (CICSAM, or upwind) times the SAME f_c
+// u_c flux as in continuity; or the geometric flux of plic_transport.hpp, where the scene says so.
 //
-// A flux-corrected step keeps 0 <= f_l <= f_c without clipping: CICSAM's flux is the upwind flux plus a
-// correction, and the correction is limited where it would leave the bounds. Where the interface moves more
-// than a fifth of a cell a step, the step is divided. Known problem: the shape error follows the Courant
-// number; a disc advected diagonally on 32 cells across the box errs by 0.26 of its area at 0.2 a direction,
-// 0.10 at 0.1, 0.06 at 0.05.
+// A flux-corrected step keeps 0 <= f_l <= f_c without clipping, and with it the gas (3), which is what is
+// left: CICSAM's flux is the upwind flux plus a correction, and the correction is limited where it would
+// leave the bounds. Where the interface moves more than a fifth of a cell a step, the step is divided. Known
+// problem: the shape error follows the Courant number; a disc advected diagonally on 32 cells across the box
+// errs by 0.26 of its area at 0.2 a direction, 0.10 at 0.1, 0.06 at 0.05.
 #pragma once
 
 #include <optional>

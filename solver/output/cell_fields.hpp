@@ -1,4 +1,4 @@
-// The fields of one instant at cell centres, as the output contract states them (README.md, "Output").
+// The fields of one instant at cell centres, as the output contract states them (docs/output.md).
 //
 // Both the continuum solver and the DEM-VOF reference fill this and hand it to the writers, so that every
 // scalar of series.csv comes from one piece of code whichever program ran.

@@ -1,8 +1,8 @@
 // Every scalar of a row of series.csv from the fields of one instant: the one code for both programs.
 //
 // One table (scalar_table) holds name, unit, description and function of each scalar; the header of
-// series.csv, the table of the README and the rows all come from it. A function returns no value where the
-// quantity is undefined (no dense bed, no liquid): an empty field, never 0 or NaN.
+// series.csv, the table of docs/output.md and the rows all come from it. A function returns no value where
+// the quantity is undefined (no dense bed, no liquid): an empty field, never 0 or NaN.
 #pragma once
 
 #include <optional>
@@ -36,7 +36,7 @@ Scalars extract_scalars(const CellFields& fields, const Scene& scene);
 // The entry of one scalar. Throws std::out_of_range naming it.
 const ScalarEntry& scalar_entry(std::string_view name);
 
-// The table as Markdown rows "| name | unit | meaning |", for the README.
+// The table as Markdown rows "| name | unit | meaning |", for docs/output.md.
 std::string scalar_table_markdown();
 
 }  // namespace granvof

@@ -12,7 +12,8 @@
 
 namespace granvof {
 
-// A column of series.csv: what it is called, its unit ("-" if it has none) and what it means (README table).
+// A column of series.csv: what it is called, its unit ("-" if it has none) and what it means
+// (docs/output.md).
 struct Column {
   std::string name;
   std::string unit;

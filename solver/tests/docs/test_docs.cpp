@@ -1,4 +1,4 @@
-// The README's table of the columns of series.csv is the one the code writes.
+// The table of docs/output.md of the columns of series.csv is the one that the code writes.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,13 +11,13 @@
 namespace granvof {
 namespace {
 
-TEST(Readme, ListsTheColumnsOfTheSeries) {
-  const auto path = std::filesystem::path(GRANVOF_CASES_DIR).parent_path() / "README.md";
+TEST(Docs, ListsTheColumnsOfTheSeries) {
+  const auto path = std::filesystem::path(GRANVOF_CASES_DIR).parent_path() / "docs/output.md";
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
   const std::string table = scalar_table_markdown();
-  EXPECT_NE(text.str().find(table), std::string::npos) << "README.md should hold this table:\n" << table;
+  EXPECT_NE(text.str().find(table), std::string::npos) << "docs/output.md should hold this table:\n" << table;
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+"""Processes that end with the one that started them, however it ends, and one user of a directory at a time."""
+
+import ctypes
+import fcntl
+import os
+import signal
+import sys
+from pathlib import Path
+
+PR_SET_PDEATHSIG = 1
+LIBC = ctypes.CDLL(None, use_errno=True)
+
+
+class Held(Exception):
+    """Another process uses the directory: which one."""
+
+
+def ends_with_parent(parent=None):
+    """For preexec_fn: the new process is asked to end (SIGTERM) when the one that started it ends, even by SIGKILL."""
+    parent = parent or os.getppid()
+    LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    if os.getppid() != parent:  # it ended between fork and prctl
+        os._exit(143)
+
+
+def end_cleanly_on_signals():
+    """SIGTERM and SIGHUP end this program as an exception does, so that what it started is ended too."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda signum, frame: sys.exit(128 + signum))
+
+
+def hold(directory, who):
+    """Holds `directory`/.lock until this process ends; the open file is returned. Held where another process has it."""
+    directory = Path(directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    lock = open(directory / ".lock", "a+", encoding="utf-8")  # inherited by nobody: closed on exec
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        lock.seek(0)
+        holder = lock.read().strip() or "another process"
+        lock.close()
+        raise Held(f"{directory} is in use by {holder}") from None
+    lock.truncate(0)
+    lock.write(f"{who} (process {os.getpid()})\n")
+    lock.flush()
+    return lock

@@ -1,0 +1,92 @@
+"""docs/theory and the code: every equation has an owner and a section, and no comment cites one that has none."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+THEORY = ROOT / "docs/theory"
+EQUATIONS = range(1, 28)
+SOURCES = [path for folder in ("solver", "compare", "reference") for kind in ("*.hpp", "*.cpp")
+           for path in sorted((ROOT / folder).rglob(kind))]
+# "(13)" or "(11)-(20)" in a comment or a text, not the "(2)" of a call, a year or a volume.
+CITED = re.compile(r"(?<![\w>\])}])\((\d{1,2})\)(?!\s*\{)")
+
+
+def comments(path):
+    """Comments and texts of a source: where equations are cited."""
+    text = path.read_text(encoding="utf-8")
+    return "\n".join(re.findall(r"//[^\n]*|\"[^\"\n]*\"", text))
+
+
+def cited(path):
+    return {int(number) for number in CITED.findall(comments(path))}
+
+
+def sections():
+    """Equation -> (page, heading)."""
+    found = {}
+    for page in sorted(THEORY.glob("*.md")):
+        for heading in re.findall(r"^## (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE):
+            number = re.match(r"\((\d+)\) ", heading)
+            if number:
+                assert int(number[1]) not in found, f"{number[0]} has two sections"
+                found[int(number[1])] = (page, heading)
+    return found
+
+
+def section_text(page, heading):
+    text = page.read_text(encoding="utf-8")
+    return text.split(f"## {heading}\n", 1)[1].split("\n## ", 1)[0]
+
+
+def owners():
+    """Equation -> owner, as the table of the index states them."""
+    index = (THEORY / "README.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| \((\d+)\) [^|]*\|[^|]*\| \[[^\]]*\]\(([^)]*)\) \|$", index, re.MULTILINE)
+    return {int(number): (THEORY / path).resolve() for number, path in table}
+
+
+def test_every_equation_has_a_section_and_an_owner():
+    assert sorted(sections()) == list(EQUATIONS)
+    assert sorted(owners()) == list(EQUATIONS)
+
+
+@pytest.mark.parametrize("number", EQUATIONS)
+def test_the_owner_names_its_equation_and_the_section_names_its_owner(number):
+    owner, (page, heading) = owners()[number], sections()[number]
+    assert number in cited(owner), f"{owner.relative_to(ROOT)} does not name ({number})"
+    code = section_text(page, heading).partition("**Code.**")[2]
+    assert owner.name in code, f"the section '{heading}' of {page.name} does not name {owner.name} as its code"
+
+
+@pytest.mark.parametrize("number", EQUATIONS)
+def test_a_section_has_its_formula_and_its_source(number):
+    text = section_text(*sections()[number])
+    assert "```math" in text
+    assert "**Source.**" in text
+
+
+def test_no_comment_cites_an_equation_without_a_section():
+    known = set(sections())
+    # Numbers beyond (27) in brackets are no equations; those within are.
+    unknown = {f"{path.relative_to(ROOT)}: ({number})" for path in SOURCES for number in cited(path)
+               if number in EQUATIONS and number not in known}
+    assert not unknown
+
+
+def test_every_closure_is_on_a_page():
+    text = "\n".join(page.read_text(encoding="utf-8") for page in THEORY.glob("*.md"))
+    missing = [path.name for path in sorted((ROOT / "solver/closures").glob("*.hpp")) if path.name not in text]
+    assert not missing, "closures without a section in docs/theory"
+
+
+def test_every_choice_of_the_model_is_on_a_page():
+    """A switch or choice of [model] that nobody can read about is a magic word."""
+    keys = (ROOT / "solver/scene/keys.cpp").read_text(encoding="utf-8")
+    schemes = "solid_flux|bed_surface|interface_scheme|contact_pressure"
+    names = set(re.findall(rf'"(model\.\w+|numerics\.(?:{schemes}))"', keys))
+    text = "\n".join(page.read_text(encoding="utf-8") for page in THEORY.glob("*.md"))
+    assert len(names) > 10
+    assert not [name for name in sorted(names) if f"`{name}" not in text]
