@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <ctime>
 
@@ -10,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "solver/output/output_error.hpp"
+#include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/checkpoint_state.hpp"
@@ -69,7 +69,9 @@ class Run {
   RunWriter open_writer();
   int loop();
   bool advance();  // one accepted step; false if the run cannot go on, see trouble_
-  void write_due_output(bool force);
+  // Rows and fields between that state and the present one.
+  void write_output(const State& earlier, const std::vector<DueOutput>& due_now);
+  void step_back();  // to the state before the last step
   void checkpoint();
   RunProgress progress() const;
   int finish(ExitState state, const std::string& reason);
@@ -81,11 +83,16 @@ class Run {
   Boundary boundary_;
   TimeStep step_;
   StepControl control_;
-  State now_, next_;
+  State now_, next_;  // after a step next_ holds the state before it
   Monitors monitors_;
   EnergyTerms start_energy_;  // of the scene's start, whatever it is resumed from
   Alarms alarms_;
   RunCounters counters_;
+  struct Marks {
+    RunCounters counters;
+    Monitors::Values monitors{};
+    double dt = 0.0;
+  } before_;  // those of the state before the last step
   StepReport last_;
   std::string trouble_;
   RunWriter writer_;
@@ -99,18 +106,18 @@ RunWriter Run::open_writer() {
   const RunStart start{"granvof", options_.command, 1, options_.threads};
   if (!options_.resume) return RunWriter::fresh(options_.out, scene_, start, monitor_columns());
   const Checkpoint saved = read_checkpoint(options_.out / "checkpoint.h5", scene_);
+  if (saved.time >= scene_.times.end)
+    throw OutputError("resume", options_.out,
+                      fmt::format("its checkpoint is of t = {:.9g} s, the case ends at {:.9g} s", saved.time,
+                                  scene_.times.end));
   restore(saved, grid_, now_, control_, monitors_, counters_);
   now_.fill_ghosts(boundary_);
   return RunWriter::resume(options_.out, scene_, start, monitor_columns(), saved.time);
 }
 
 bool Run::advance() {
+  before_ = {counters_, monitors_.values(), control_.last()};
   double dt = control_.next(now_);
-  // Meet the next field time exactly, without a tiny last step.
-  if (counters_.next_field < scene_.times.field_times.size()) {
-    const double left = scene_.times.field_times[counters_.next_field] - now_.time;
-    if (left > 0.0) dt = left / std::ceil(left / dt * (1.0 - 1e-9));
-  }
   for (;;) {
     last_ = step_.advance(now_, dt, next_);
     if (last_.accepted) {
@@ -134,30 +141,33 @@ bool Run::advance() {
   counters_.friction += last_.friction.iterations;
   counters_.unconverged_friction += last_.friction.converged ? 0 : 1;
   ++counters_.steps;
-  trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
-  return trouble_.empty();
+  return true;
 }
 
-void Run::write_due_output(bool force) {
-  const Times& times = scene_.times;
-  if (now_.time < -1e-12) return;  // the column is still held
-  const bool field_due = counters_.next_field < times.field_times.size() &&
-                         now_.time >= times.field_times[counters_.next_field] - 1e-9 * times.end;
-  const bool row_due = force || field_due || now_.time >= counters_.next_row - 1e-9 * times.end;
-  if (!row_due) return;
-  const CellFields fields = cell_fields(grid_, now_);
-  std::vector<Value> row{control_.last(),
-                         static_cast<double>(last_.pressure.newton),
-                         static_cast<double>(last_.pressure.linear),
-                         static_cast<double>(last_.friction.iterations),
-                         monitors_.solid_volume_error(),
-                         monitors_.liquid_volume_error()};
-  for (const EnergyTerm& term : energy_terms) row.emplace_back(now_.energy.*term.value);
-  writer_.write_series_row(now_.time, row, extract_scalars(fields, scene_));
-  while (counters_.next_row <= now_.time + 1e-9 * times.end) counters_.next_row += times.series_interval;
-  if (field_due) {
-    writer_.write_fields(fields);
-    ++counters_.next_field;
+void Run::step_back() {
+  std::swap(now_, next_);
+  counters_ = before_.counters;
+  monitors_.restore(before_.monitors);
+  control_.restore(before_.dt);
+}
+
+// The flow knows nothing of its output: no step is cut for it. What falls into a step is interpolated between
+// the two states; monitors are those of that step.
+void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_now) {
+  for (const DueOutput& due : due_now) {
+    const CellFields fields = cell_fields(grid_, earlier, now_, due.time);
+    if (due.row) {
+      std::vector<Value> row{control_.last(),
+                             static_cast<double>(last_.pressure.newton),
+                             static_cast<double>(last_.pressure.linear),
+                             static_cast<double>(last_.friction.iterations),
+                             monitors_.solid_volume_error(),
+                             monitors_.liquid_volume_error()};
+      const EnergyTerms energy = energy_terms_at(earlier, now_, due.time);
+      for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
+      writer_.write_series_row(due.time, row, extract_scalars(fields, scene_));
+    }
+    if (due.fields) writer_.write_fields(fields);
   }
 }
 
@@ -166,7 +176,7 @@ RunProgress Run::progress() const {
   p.steps = counters_.steps;
   p.refused_steps = counters_.refused_steps;
   p.cells = static_cast<std::int64_t>(grid_.cells.count());
-  p.simulated_time = now_.time;
+  p.simulated_time = std::min(now_.time, scene_.times.end);
   p.wall_seconds = counters_.wall_seconds +
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   p.core_seconds = counters_.core_seconds + core_seconds() - started_core_;
@@ -194,12 +204,15 @@ void Run::checkpoint() {
 
 int Run::finish(ExitState state, const std::string& reason) {
   progress_line_.clear();
-  checkpoint();  // of a finished run too: a longer one goes on from it
+  const RunProgress done = progress();
+  // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no end.
+  if (state == ExitState::finished) step_back();
+  writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, done), done);
   if (state != ExitState::finished) {
     spdlog::error("{}: {}; last good state at t = {:.6g} s is in {}", scene_.name, reason, now_.time,
                   writer_.checkpoint_path().string());
   }
-  writer_.finish(progress(), {state, reason});
+  writer_.finish(done, {state, reason});
   return state == ExitState::finished ? 0 : 1;
 }
 
@@ -208,7 +221,7 @@ int Run::go() {
     if (options_.resume)
       writer_.write_progress(progress());  // run.json must not show the old end while this goes on
     else
-      write_due_output(false);
+      write_output(now_, due_output(scene_.times, -1.0, now_.time));
     return loop();
   } catch (const OutputError& error) {
     progress_line_.clear();
@@ -220,16 +233,18 @@ int Run::go() {
 }
 
 int Run::loop() {
-  while (now_.time < scene_.times.end * (1.0 - 1e-12)) {
+  for (;;) {
     if (stop_requested) return finish(ExitState::stopped, "stopped by a signal");
     if (!advance()) return finish(ExitState::failed, trouble_);
-    write_due_output(now_.time >= scene_.times.end * (1.0 - 1e-12));
+    write_output(next_, due_output(scene_.times, next_.time, now_.time));
+    trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
+    if (!trouble_.empty()) return finish(ExitState::failed, trouble_);
+    if (now_.time >= scene_.times.end) return finish(ExitState::finished, {});
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint_;
     if (scene_.times.checkpoint_interval > 0.0 && since.count() >= scene_.times.checkpoint_interval)
       checkpoint();
     progress_line_.show(progress(), control_.last(), last_.pressure.newton, last_.pressure.linear);
   }
-  return finish(ExitState::finished, {});
 }
 
 }  // namespace
