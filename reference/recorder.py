@@ -6,6 +6,7 @@ depends on, the seed and the versions of all parts. Records that no comparison m
 controls/ (gate closed), variants/<variant>/ (another grid, depth, floor or bead size) and bulk-friction/ (the chute).
 """
 import csv
+import hashlib
 import json
 import shutil
 import subprocess
@@ -186,7 +187,25 @@ def slim_record(folder):
             smaller = True
         else:
             draft.unlink()
+    record = folder / "record.json"
+    if smaller and record.exists():
+        facts = json.loads(record.read_text())
+        record.write_text(json.dumps({**facts, **files_of(folder)}, indent=2) + "\n")
     return smaller
+
+
+def files_of(folder):
+    """What run.json states of a run's files, for those that a record keeps; they are smaller."""
+    files = {}
+    lines = (folder / "series.csv").read_text().splitlines()
+    files["series.csv"] = {"rows": len(lines) - 1, "end": float(lines[-1].split(",")[0]) if len(lines) > 1 else None,
+                           "columns": lines[0].split(",")}
+    if (folder / "fields.h5").exists():
+        with h5py.File(folder / "fields.h5") as fields:
+            files["fields.h5"] = {"instants": len(fields)}
+    for name, facts in files.items():
+        facts["sha256"] = hashlib.sha256((folder / name).read_bytes()).hexdigest()
+    return {"files": files}
 
 
 def make_record(run, run_directory, case_hash, results=RESULTS):
@@ -208,6 +227,7 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     slim_series(run_directory / "series.csv", draft / "series.csv")
     if not run.chute:
         slim_fields(run_directory / "fields.h5", draft / "fields.h5")
+    facts.update(files_of(draft))
     (draft / "record.json").write_text(json.dumps(facts, indent=2) + "\n")
     shutil.rmtree(folder, ignore_errors=True)
     draft.rename(folder)

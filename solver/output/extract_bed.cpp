@@ -27,19 +27,19 @@ Value centre_height(const CellFields& fields, double threshold) {
   return moment / weight;
 }
 
-// Upper edge of the dense bed in a profile of f_s: the last dense row and the one above it are full up to
-// their share between what lies above them (a suspension, or nothing) and the packing below. Exact for a
-// sharp edge anywhere in a cell, at any packing, and continuous as rows become dense.
-Value upper_edge(const std::vector<double>& profile, double spacing, double threshold) {
+// Upper edge of the dense bed in a profile of f_s, in rows: the last dense row and the one above it are full
+// up to their share between what lies above them (a suspension, or nothing) and the packing below. Exact for
+// a sharp edge anywhere in a cell, at any packing, and continuous as rows become dense.
+Value upper_edge(const std::vector<double>& profile, double threshold) {
   const auto dense = std::find_if(profile.rbegin(), profile.rend(), [&](double f) { return f >= threshold; });
   if (dense == profile.rend()) return std::nullopt;
   const auto last = static_cast<std::size_t>(profile.rend() - dense) - 1;
   const auto at = [&](std::size_t row) { return row < profile.size() ? profile[row] : 0.0; };
-  if (last + 1 == profile.size()) return static_cast<double>(profile.size()) * spacing;
+  if (last + 1 == profile.size()) return static_cast<double>(profile.size());
   const double above = at(last + 2);
   const double packing = last > 0 ? std::max(profile[last], profile[last - 1]) : profile[last];
   const auto full = [&](double f) { return std::clamp((f - above) / (packing - above), 0.0, 1.0); };
-  return (static_cast<double>(last) + full(at(last)) + full(at(last + 1))) * spacing;
+  return static_cast<double>(last) + full(at(last)) + full(at(last + 1));
 }
 
 }  // namespace
@@ -68,13 +68,15 @@ Value y_c(const CellFields& fields, const Scene& scene) {
 Value bed_bottom(const CellFields& fields, const Scene& scene) {
   auto profile = bed_profile_along_y(fields, scene);
   std::reverse(profile.begin(), profile.end());
-  const auto depth = upper_edge(profile, fields.spacing[1], dense_threshold(scene));
+  const auto depth = upper_edge(profile, dense_threshold(scene));
   if (!depth) return std::nullopt;
-  return fields.cells[1] * fields.spacing[1] - *depth;
+  return (fields.cells[1] - *depth) * fields.spacing[1];
 }
 
 Value bed_top(const CellFields& fields, const Scene& scene) {
-  return upper_edge(bed_profile_along_y(fields, scene), fields.spacing[1], dense_threshold(scene));
+  const auto rows = upper_edge(bed_profile_along_y(fields, scene), dense_threshold(scene));
+  if (!rows) return std::nullopt;
+  return *rows * fields.spacing[1];
 }
 
 Value bed_height(const CellFields& fields, const Scene& scene) {

@@ -1,6 +1,7 @@
 #include "solver/run/run_case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <ctime>
@@ -22,10 +23,36 @@
 namespace granvof {
 namespace {
 
-// Set by SIGINT and SIGTERM; the one thing a signal handler may do.
+// The signal that asked for the end; setting it is the one thing a signal handler may do.
 volatile std::sig_atomic_t stop_requested = 0;
-void request_stop(int) {
-  stop_requested = 1;
+void request_stop(int signal) {
+  stop_requested = signal;
+}
+
+struct NamedSignal {
+  int number;
+  const char* name;
+};
+// What ends a run with a checkpoint: from a terminal, a shell, a scheduler before it kills, or a reader of
+// our messages that has gone.
+constexpr std::array stopping_signals{NamedSignal{SIGINT, "SIGINT"},   NamedSignal{SIGTERM, "SIGTERM"},
+                                      NamedSignal{SIGHUP, "SIGHUP"},   NamedSignal{SIGUSR1, "SIGUSR1"},
+                                      NamedSignal{SIGXCPU, "SIGXCPU"}, NamedSignal{SIGPIPE, "SIGPIPE"}};
+
+// One that the caller had ignored (nohup, a shell's background) stays ignored, but a broken pipe: that is how
+// the run learns of it. A file that may not grow (SIGXFSZ) shows as a failed write.
+void listen_to_signals() {
+  stop_requested = 0;
+  for (const NamedSignal& signal : stopping_signals)
+    if (std::signal(signal.number, request_stop) == SIG_IGN && signal.number != SIGPIPE)
+      std::signal(signal.number, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+std::string name_of_signal(int number) {
+  const auto* found = std::find_if(stopping_signals.begin(), stopping_signals.end(),
+                                   [=](const NamedSignal& s) { return s.number == number; });
+  return found == stopping_signals.end() ? std::to_string(number) : found->name;
 }
 
 double core_seconds() {
@@ -75,6 +102,8 @@ class Run {
   void checkpoint();
   RunProgress progress() const;
   int finish(ExitState state, const std::string& reason);
+  int give_up(const std::string& reason);
+  std::string what_is_left() const;
 
   const Scene& scene_;
   const RunOptions& options_;
@@ -95,6 +124,7 @@ class Run {
   } before_;  // those of the state before the last step
   StepReport last_;
   std::string trouble_;
+  bool begins_ = true;  // not resumed
   RunWriter writer_;
   ProgressLine progress_line_;
   double started_core_ = core_seconds();
@@ -104,15 +134,18 @@ class Run {
 
 RunWriter Run::open_writer() {
   const RunStart start{"granvof", options_.command, 1, options_.threads};
-  if (!options_.resume) return RunWriter::fresh(options_.out, scene_, start, monitor_columns());
-  const Checkpoint saved = read_checkpoint(options_.out / "checkpoint.h5", scene_);
-  if (saved.time >= scene_.times.end)
-    throw OutputError("resume", options_.out,
-                      fmt::format("its checkpoint is of t = {:.9g} s, the case ends at {:.9g} s", saved.time,
-                                  scene_.times.end));
-  restore(saved, grid_, now_, control_, monitors_, counters_);
+  if (!options_.resume)
+    return RunWriter::fresh(options_.out, scene_, start, monitor_columns(), options_.force);
+  ResumedRun resumed = RunWriter::resume(options_.out, scene_, start, monitor_columns());
+  if (!resumed.checkpoint) {
+    spdlog::warn("{}: {} has no checkpoint, the run begins anew", scene_.name, options_.out.string());
+    return std::move(resumed.writer);
+  }
+  begins_ = false;
+  restore(*resumed.checkpoint, grid_, now_, control_, monitors_, counters_);
   now_.fill_ghosts(boundary_);
-  return RunWriter::resume(options_.out, scene_, start, monitor_columns(), saved.time);
+  alarms_.restore(std::move(resumed.warnings));
+  return std::move(resumed.writer);
 }
 
 bool Run::advance() {
@@ -208,33 +241,42 @@ int Run::finish(ExitState state, const std::string& reason) {
   // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no end.
   if (state == ExitState::finished) step_back();
   writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, done), done);
-  if (state != ExitState::finished) {
-    spdlog::error("{}: {}; last good state at t = {:.6g} s is in {}", scene_.name, reason, now_.time,
-                  writer_.checkpoint_path().string());
-  }
+  if (state != ExitState::finished) spdlog::error("{}: {}; {}", scene_.name, reason, what_is_left());
   writer_.finish(done, {state, reason});
   return state == ExitState::finished ? 0 : 1;
 }
 
+std::string Run::what_is_left() const {
+  const auto saved = writer_.checkpoint_time();
+  return saved ? fmt::format("--resume goes on from t = {:.6g} s, {}", *saved,
+                             writer_.checkpoint_path().string())
+               : "there is no checkpoint to go on from";
+}
+
+int Run::give_up(const std::string& reason) {
+  progress_line_.clear();
+  const std::string at = fmt::format("stopped at t = {:.6g} s: {}", now_.time, reason);
+  spdlog::error("{}: {}; {}", scene_.name, at, what_is_left());
+  writer_.give_up(progress(), at);
+  return 1;
+}
+
 int Run::go() {
   try {
-    if (options_.resume)
-      writer_.write_progress(progress());  // run.json must not show the old end while this goes on
-    else
-      write_output(now_, due_output(scene_.times, -1.0, now_.time));
+    writer_.write_progress(progress());  // run.json must not show an old end while this goes on
+    if (begins_) write_output(now_, due_output(scene_.times, -1.0, now_.time));
     return loop();
   } catch (const OutputError& error) {
-    progress_line_.clear();
-    spdlog::error(
-        "{}: stopped at t = {:.6g} s, its output cannot be written: {}; the last checkpoint stays in {}",
-        scene_.name, now_.time, error.what(), writer_.checkpoint_path().string());
-    return 1;
+    return give_up(fmt::format("its output cannot be written: {}", error.what()));
+  } catch (const std::exception& error) {
+    return give_up(error.what());
   }
 }
 
 int Run::loop() {
   for (;;) {
-    if (stop_requested) return finish(ExitState::stopped, "stopped by a signal");
+    if (stop_requested)
+      return finish(ExitState::stopped, "stopped by a signal (" + name_of_signal(stop_requested) + ")");
     if (!advance()) return finish(ExitState::failed, trouble_);
     write_output(next_, due_output(scene_.times, next_.time, now_.time));
     trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
@@ -251,9 +293,7 @@ int Run::loop() {
 
 int run_case(const Scene& scene, const RunOptions& options) {
   omp_set_num_threads(std::max(1, options.threads));
-  stop_requested = 0;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  listen_to_signals();
   return Run(scene, options).go();
 }
 

@@ -135,8 +135,8 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   const std::string scratch = options.scratch.string();
   ProgressLine line(options.progress, scene.name);
 
-  granvof::RunWriter writer =
-      granvof::RunWriter::fresh(options.out, gridded, {"demvof", options.command, 1, 1}, monitor_columns());
+  granvof::RunWriter writer = granvof::RunWriter::fresh(
+      options.out, gridded, {"demvof", options.command, 1, 1}, monitor_columns(), options.force);
 
   line.say("preparing the column");
   const std::vector<double> floor = floor_beads(scene, options.seed);
