@@ -168,5 +168,35 @@ TEST_F(OutputTimes, ResumedBetweenTwoRowsOfOneStepIsTheSameRun) {
   EXPECT_EQ(steps_of(a), steps_of(b));
 }
 
+TEST(Interpolation, IsAMeanOfTwoStatesThatKeepsTheirVolumes) {
+  test::Simulation run(column_scene());
+  State earlier = run.now, later = run.now;
+  earlier.time = 1.0;
+  later.time = 3.0;
+  double number = 0.0;
+  for (State* state : {&earlier, &later})
+    for (Field* field : {&state->f_s, &state->alpha, &state->theta, &state->phi, &state->p_c, &state->u_s[0]})
+      for (double& value : field->span()) value = 0.3 * (1.0 + std::sin(number += 1.0));
+  for (double& value : earlier.alpha.span()) value = 1.0;
+  earlier.energy.drag = 4.0;
+  later.energy.drag = 8.0;
+  const CellFields a = cell_fields(run.grid, earlier), b = cell_fields(run.grid, later);
+  const CellFields at = cell_fields(run.grid, earlier, later, 1.5);  // a quarter of the way
+  EXPECT_EQ(at.time, 1.5);
+  for (std::size_t c = 0; c < at.f_s.size(); ++c) {
+    EXPECT_NEAR(at.f_s[c], 0.75 * a.f_s[c] + 0.25 * b.f_s[c], 1e-15);
+    EXPECT_NEAR(at.p_c[c], 0.75 * a.p_c[c] + 0.25 * b.p_c[c], 1e-15);
+    EXPECT_NEAR(at.u_s[0][c], 0.75 * a.u_s[0][c] + 0.25 * b.u_s[0][c], 1e-15);
+    const auto liquid = [&](const CellFields& f) { return f.alpha[c] * (1.0 - f.f_s[c]); };
+    EXPECT_NEAR(liquid(at), 0.75 * liquid(a) + 0.25 * liquid(b), 1e-15);
+    EXPECT_NEAR(at.theta[c] * at.f_s[c], 0.75 * a.theta[c] * a.f_s[c] + 0.25 * b.theta[c] * b.f_s[c], 1e-15);
+    EXPECT_LE(at.alpha[c], 1.0);
+    EXPECT_GE(at.alpha[c], std::min(a.alpha[c], b.alpha[c]));
+  }
+  EXPECT_EQ(cell_fields(run.grid, earlier, later, 3.0).f_s, b.f_s);
+  EXPECT_EQ(cell_fields(run.grid, earlier, later, 3.0).alpha, b.alpha);
+  EXPECT_EQ(energy_terms_at(earlier, later, 1.5).drag, 5.0);
+}
+
 }  // namespace
 }  // namespace granvof
