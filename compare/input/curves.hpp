@@ -15,8 +15,8 @@ namespace granvof::compare {
 // when it was released.
 ColumnSize column_of(const Run& run);
 
-// Run-out (l - l0) / h0 [-] against T [-], by the three fronts of run_out.hpp; empty for a scene without a bed or
-// a series without that front.
+// Run-out (l - l0) / h0 [-] against T [-], by the three fronts of run_out.hpp; empty for a scene without a
+// bed or a series without that front.
 Curve run_out_curve(const Run& run);
 Curve run_out_dense_curve(const Run& run);
 Curve run_out_quantile_curve(const Run& run);

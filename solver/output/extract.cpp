@@ -20,8 +20,8 @@ namespace {
 using namespace scalar;
 
 constexpr std::array table{
-    ScalarEntry{"front_dense", "m", "the paper's run-out: largest x with f_s >= 0.95 f_s,min, from the wall x = 0",
-                front_dense},
+    ScalarEntry{"front_dense", "m",
+                "the paper's run-out: largest x with f_s >= 0.95 f_s,min, from the wall x = 0", front_dense},
     ScalarEntry{"front_dense_mean", "m", "front_dense of each layer z = const, averaged over z",
                 front_dense_mean},
     ScalarEntry{"front_dilute", "m", "largest x with f_s >= 0.30", front_dilute},
@@ -33,10 +33,10 @@ constexpr std::array table{
     ScalarEntry{"p_base", "Pa", "mean P_c at the centres of the lowest cells under the bed's initial base",
                 p_base},
     ScalarEntry{"y_c", "m", "centre of the cells with f_s > 0.95 f_s,min, eq (27)", y_c},
-    ScalarEntry{"bed_bottom", "m", "lower edge of the dense bed (f_s >= 0.95 f_s,min), in the profile over its original columns",
+    ScalarEntry{"bed_bottom", "m",
+                "lower edge of the dense bed (f_s >= 0.95 f_s,min), in the profile over its original columns",
                 bed_bottom},
-    ScalarEntry{"bed_top", "m", "upper edge of the dense bed, likewise",
-                bed_top},
+    ScalarEntry{"bed_top", "m", "upper edge of the dense bed, likewise", bed_top},
     ScalarEntry{"bed_height", "m", "H = bed_top - bed_bottom", bed_height},
     ScalarEntry{"bed_height_equivalent", "m", "solid of the profile over the mean f_s of its dense rows",
                 bed_height_equivalent},

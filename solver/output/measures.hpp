@@ -19,8 +19,8 @@ void check_fields(const CellFields& fields, const Scene& scene);
 // 0.95 f_s,min, the edge of a dense bed [-].
 double dense_threshold(const Scene& scene);
 
-// A tenth of f_s,min: a cell that holds less has no bed in it but what numerics spread there, of less than a grain
-// in most of our cells, and its velocity and temperature mean nothing [-].
+// A tenth of f_s,min: a cell that holds less has no bed in it but what numerics spread there, of less than a
+// grain in most of our cells, and its velocity and temperature mean nothing [-].
 double present_threshold(const Scene& scene);
 
 // Volume of a cell [m3]. In 2D all layers of cells together (one in the solver, a slice of several in the
