@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "solver/scene/completion.hpp"
+#include "solver/scene/regular_times.hpp"
 #include "solver/scene/scales.hpp"
 
 namespace granvof::case_file {
@@ -57,7 +58,8 @@ void rows(const Completion& c) {
     c.refuse("output.series_interval", fmt::format("a number in [{:.9g}, {:.9g}], time.end / {} to time.end",
                                                    t.end / most_rows, t.end, most_rows));
   }
-  c.s.times.series_interval = interval * c.s.times.unit;
+  for (const double time : regular_times(interval, t.end))
+    c.s.times.row_times.push_back(time * c.s.times.unit);
   c.s.times.checkpoint_interval = t.checkpoint_interval;
 }
 
@@ -72,10 +74,7 @@ void fields(const Completion& c) {
       c.refuse("output.field_interval", fmt::format("a number in [{:.9g}, {:.9g}], time.end / {} to time.end",
                                                     t.end / most_field_times, t.end, most_field_times));
     }
-    t.field_times.clear();
-    for (int i = 0; i * *t.field_interval < t.end * (1.0 - roundoff); ++i) {
-      t.field_times.push_back(i * *t.field_interval);
-    }
+    t.field_times = regular_times(*t.field_interval, t.end);
   } else if (listed < 0) {
     t.field_times = {0.0};
   } else {
