@@ -99,7 +99,8 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     FaceInertia inertia(s.grid);
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
-    drag.update(s.faces(constant(0.0, 0.0, 0.0)), s.faces(constant(0.0, slip, 0.0)), f_s, alpha, inertia);
+    drag.update(s.boundary, s.faces(constant(0.0, 0.0, 0.0)), s.faces(constant(0.0, slip, 0.0)), f_s, alpha,
+                inertia);
     return drag.beta()[1][s.grid.cells.index(1, 2, 0)];
   };
   const Tank s(unit_scene(2, 4));

@@ -303,7 +303,7 @@ TEST(CaseErrors, DoNotFollowFromOneAnother) {
   EXPECT_EQ(
       lines_of(refusal_of(small_case, {"model.preset=no", "contact.critical_solid_fraction=0.5"})).size(),
       1U);
-  EXPECT_EQ(lines_of(refusal_of(small_case, {"tank.size=[0.4, -1]", "numerics.dt_min=1"})).size(), 1U);
+  EXPECT_EQ(lines_of(refusal_of(small_case, {"bed.height=-1", "numerics.dt_min=1"})).size(), 1U);
 }
 
 TEST(CaseErrors, AllBadOverridesAreNamed) {

@@ -45,7 +45,7 @@ Scene scene_of(const Suspension& s, const Tank& tank) {
           "[liquid]\ndensity = 950\nviscosity = 0.02\nlevel = {}\n"
           "[solid]\ndensity = 1050\ndiameter = 0.29e-3\nfriction = 0.4\n"
           "[bed]\nlength = {}\nheight = {}\nsolid_fraction = {}\n[time]\nend = 1000\n"
-          "[model]\ndrag_law = \"{}\"\n[numerics]\ndt_max = {}\n"
+          "[model]\npreset = \"paper\"\ndrag_law = \"{}\"\n[numerics]\ndt_max = {}\n"
           "solid_flux = \"{}\"\n",
           three ? 3 : 2, wide, height, three ? fmt::format(", {}", tank.deep * s.dx) : "", s.dx, sides,
           height, wide, filled, s.f_s, s.law, longest_step, s.flux),
@@ -131,7 +131,8 @@ class OneDimensional : public ::testing::TestWithParam<Suspension> {};
 // The friction solve leaves 1e-9 of sqrt(g H) = 5e-10 m/s a step, other in each column: 1e-7 of a cell of 0.5
 // mm in 0.18 s, 2e-5 in these 120 steps. Row by row one column differs by what the volume tolerance of 1e-6
 // of a cell and step adds up to: by up to 6e-4 where f_s is steep. The front has the sum of the rows, where
-// that cancels. Physical waves grow by less than 1 % meanwhile.
+// that cancels. Physical waves grow by less than 1 % meanwhile. With numerics.bed_surface = "part-cells" the
+// columns differ by up to 4e-4 instead, at f_s 0.4: that is not held here.
 TEST_P(OneDimensional, InEveryTank) {
   const Suspension& s = GetParam();
   const int steps = 120;

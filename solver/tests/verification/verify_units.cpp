@@ -1,5 +1,6 @@
 // A scene in other units of mass, length and time takes the same steps to the same dimensionless state: no
 // threshold, floor or default of the solver has a unit of its own.
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -64,13 +65,16 @@ class Units : public ::testing::TestWithParam<Restated> {
   }
 };
 
-// Powers of two that are sixth powers too: no square or cube root rounds otherwise than in SI units.
+// Powers of two that are sixth powers too: no square or cube root rounds otherwise than in SI units. But
+// below the smallest normal number doubles lose bits, each unit others: alpha ahead of an interface falls
+// that low.
 TEST_P(Units, PowersOfTwoChangeNoBit) {
   for (const UnitFactors& factors :
        {UnitFactors{64.0, 1.0, 1.0}, {1.0, 1.0 / 64.0, 1.0}, {1.0, 1.0, 4096.0}}) {
     const Differences d = differences_in(factors);
-    EXPECT_EQ(d.motion.value, 0.0) << text(d.motion, factors);
-    EXPECT_EQ(d.stress.value, 0.0) << text(d.stress, factors);
+    constexpr double smallest_normal = std::numeric_limits<double>::min();
+    EXPECT_LT(d.motion.value, smallest_normal) << text(d.motion, factors);
+    EXPECT_LT(d.stress.value, smallest_normal) << text(d.stress, factors);
   }
 }
 
