@@ -8,6 +8,7 @@
 
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
+#include "compare/input/name.hpp"
 #include "compare/input/toml_entry.hpp"
 
 namespace granvof::compare {
@@ -20,11 +21,21 @@ std::string names_of(const Entries& entries) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+// What becomes part of a path must not lead out of it.
+void require_name(const TomlEntry& entry, std::string_view key, const std::string& name) {
+  if (!is_name(name))
+    entry.fail(
+        key,
+        fmt::format("'{}' given; a name has letters, digits and -_. and begins with none of these", name));
+}
+
 PlannedRun read_run(const TomlEntry& entry) {
   entry.allow_only({"id", "case", "set"});
   PlannedRun run;
   run.id = entry.text("id");
   run.case_name = entry.has("case") ? entry.text("case") : run.id;
+  require_name(entry, "id", run.id);
+  require_name(entry, "case", run.case_name);
   if (entry.has("set")) run.set = entry.assignments("set");
   return run;
 }
@@ -77,6 +88,7 @@ Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
     if (reference.kind != ReferenceKind::dem)
       entry.fail("record", "only a reference of kind DEM has a record");
     reference.record = entry.text("record");
+    require_name(entry, "record", *reference.record);
     reference.source = source_of_record(*reference.record);
   }
   if (entry.has("source"))
@@ -200,6 +212,7 @@ Table read_root(const toml::table& root, std::string_view name) {
         entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
       table.checks.push_back(std::move(check));
     }
+  if (table.checks.empty()) throw TableError(fmt::format("{}: there is no [[check]]", name));
   return table;
 }
 

@@ -13,6 +13,7 @@ Curve run_out(const Curve& front_dense, const Curve& front_dilute, const ColumnS
   const double tau = collapse_time(column);
   const double change = dense_front_until * tau * (1.0 + 1e-9);
   Curve scaled;
+  scaled.widest = std::min(front_dense.widest, front_dilute.widest) / tau;
   const auto append = [&](const Curve& front, bool early) {
     const auto start = value_at(front, 0.0);
     if (!start) return;
@@ -29,6 +30,7 @@ Curve run_out(const Curve& front_dense, const Curve& front_dilute, const ColumnS
 
 Curve before_wall(const Curve& front, double far_end, double cell) {
   Curve free;
+  free.widest = front.widest;
   for (std::size_t i = 0; i < front.size() && front.value[i] < far_end - cell; ++i) {
     free.time.push_back(front.time[i]);
     free.value.push_back(front.value[i]);

@@ -171,5 +171,20 @@ TEST(Table, AMissingFileIsNamed) {
   }
 }
 
+// Nothing to check is no success.
+TEST(Table, WithoutAnyCheckItIsRefused) {
+  EXPECT_NE(message_of("").find("there is no [[check]]"), std::string::npos);
+  EXPECT_NE(message_of("[[run]]\nid = \"s1\"\n").find("there is no [[check]]"), std::string::npos);
+}
+
+TEST(Table, ADirectoryIsNoTable) {
+  try {
+    read_table(GRANVOF_CASES_DIR);
+    FAIL();
+  } catch (const TableError& error) {
+    EXPECT_NE(std::string(error.what()).find("it is a directory"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace granvof::compare

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -113,7 +114,10 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)  // what nobody could read was not said
+      throw std::runtime_error("cannot write to standard output");
+    return code;
   } catch (const granvof::CaseError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
