@@ -20,8 +20,10 @@ LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene
                                   loaded.facts->case_hash, scene.reference_hash);
       return loaded;
     }
-    // A record's rows are as its recorder was asked, which the hash need not know.
-    const Asked asked{0.0, scene.times.end};
+    // A record's rows and end are as its recorder was asked, of which the hash knows nothing.
+    const auto& files = loaded.facts->files;
+    const double stated_end = files ? files->series.end.value_or(0.0) : 0.0;
+    const Asked asked{0.0, loaded.facts->number("simulated_time").value_or(stated_end)};
     Series series = read_evidence(directory, *loaded.facts, asked);
     const double interval = interval_of(series, asked);
     loaded.run =

@@ -1,7 +1,10 @@
 // Whole rows: run directories and records on disk, to verdicts.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,6 +12,7 @@
 
 #include "compare/checks/evaluate.hpp"
 #include "compare/checks/table.hpp"
+#include "compare/input/records.hpp"
 #include "compare/output/write.hpp"
 #include "compare/tests/files_stated.hpp"
 #include "solver/output/atomic_file.hpp"
@@ -218,6 +222,18 @@ TEST_F(Evaluate, JUnitCountsFailuresAndEscapes) {
   EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
 }
 
+// XML knows no control characters.
+TEST_F(Evaluate, JUnitHoldsNoControlCharacter) {
+  write_run("s1", series(0.1));
+  const Evaluation evaluation = evaluate_row(
+      "metric = \"solid_volume_error\"\nreference = { kind = \"theory\", value = 0, source = "
+      "\"a\\u0007b\\u001b\" }\n"
+      "tolerance = { absolute = 1e-12, unit = \"-\" }\n");
+  const std::string xml = junit_xml(evaluation);
+  EXPECT_NE(xml.find("a\\x07b\\x1b"), std::string::npos) << xml;
+  EXPECT_TRUE(std::none_of(xml.begin(), xml.end(), [](char c) { return c >= 0 && c < 0x20 && c != '\n'; }));
+}
+
 // A further curve, under the program's name; left out once its case has changed.
 TEST_F(Evaluate, TheRunOfAStockProgramIsAFurtherCurve) {
   write_run("s1", series(0.1));
@@ -278,8 +294,34 @@ TEST_F(Evaluate, OneDamagedSeedIsAnErrorOfTheRow) {
   const Evaluation evaluation = evaluate_row(record_row);
   EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
   EXPECT_NE(evaluation.results[0].note.find("seed2"), std::string::npos) << evaluation.results[0].note;
+  ASSERT_EQ(evaluation.results.size(), 2u);
   EXPECT_EQ(evaluation.unexpected(), 2);  // the row, and the record by its name
   EXPECT_EQ(evaluation.results[1].check.id, "evidence." + cut.parent_path().string());
+}
+
+// A run of another length is compared over what both cover.
+TEST_F(Evaluate, ARecordMayBeLongerOrShorterThanTheRun) {
+  write_record("seed1", 0.1, scene_.reference_hash);
+  for (const char* end : {"5", "20"}) {
+    const std::vector<std::string> set{std::string("time.end=") + end};
+    Scene other = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml", set);
+    other.reference_hash = scene_.reference_hash;  // whatever the hash knows of the end
+    EXPECT_TRUE(load_records(paths_.records, "s1", other).at(0).run) << end;
+  }
+}
+
+TEST_F(Evaluate, ARecordThatEndsBeforeItsTimeIsAnError) {
+  const std::string text = series(0.1);
+  const std::string cut = text.substr(0, text.find("\n", text.size() / 2) + 1);
+  const nlohmann::json json{{"scene", "s1"},
+                            {"case_hash", scene_.reference_hash},
+                            {"simulated_time", scene_.times.end},
+                            {"files", test::files_stated(cut)}};
+  write(paths_.records / "s1" / "seed1" / "record.json", json.dump());
+  write(paths_.records / "s1" / "seed1" / "series.csv", cut);
+  const LoadedRun loaded = load_records(paths_.records, "s1", scene_).at(0);
+  EXPECT_EQ(loaded.state, RunState::refused);
+  EXPECT_NE(loaded.reason.find("it ends at"), std::string::npos) << loaded.reason;
 }
 
 TEST_F(Evaluate, ADamagedRunIsAnErrorAndTheOthersAreJudged) {

@@ -177,6 +177,14 @@ TEST(Table, WithoutAnyCheckItIsRefused) {
   EXPECT_NE(message_of("[[run]]\nid = \"s1\"\n").find("there is no [[check]]"), std::string::npos);
 }
 
+// Names become parts of paths.
+TEST(Table, ANameLeadsOutOfNowhere) {
+  for (const char* name : {"../s1", "..", ".", "/tmp/s1", "a/b", "-x", "s1 ", "s1\\n"})
+    for (const std::string& run :
+         {"id = \"" + std::string(name) + "\"\n", "id = \"s1\"\ncase = \"" + std::string(name) + "\"\n"})
+      EXPECT_NE(message_of("[[run]]\n" + run).find("a name has letters"), std::string::npos) << run;
+}
+
 TEST(Table, ADirectoryIsNoTable) {
   try {
     read_table(GRANVOF_CASES_DIR);
