@@ -39,7 +39,7 @@ class Runner:
             command += ["--set", override]
         self.runs += 1
         ended = subprocess.run([str(part) for part in command], capture_output=True, text=True, preexec_fn=self.limit)
-        if ended.returncode == -signal.SIGXCPU:
+        if ended.returncode == -signal.SIGXCPU or "(SIGXCPU)" in ended.stderr:  # it ends itself, with a checkpoint
             return "timeout", out
         if ended.returncode == 2:
             raise RuntimeError(f"{name}: {ended.stderr.strip()}")

@@ -32,6 +32,10 @@ Measured run_out_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run_out_curve(run), *p.at), "no front at that T");
 }
 
+Measured run_out_dense_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run_out_dense_curve(run), *p.at), "no front at that T");
+}
+
 Measured run_out_quantile_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run_out_quantile_curve(run), *p.at), "no front at that T");
 }
@@ -233,7 +237,9 @@ constexpr Needs window_only{.window = true};
 constexpr Needs at_only{.at = true};
 
 constexpr std::array table{
-    MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at", at_only, run_out_at},
+    MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at, l by f_s >= 0.30", at_only, run_out_at},
+    MetricEntry{"run_out_dense", "-", "the same by the paper's own front, f_s >= 0.95 f_s,min, at T = at",
+                at_only, run_out_dense_at},
     MetricEntry{"run_out_quantile", "-",
                 "the same of the place that 99.5 % of the grains have not passed, at T = at", at_only,
                 run_out_quantile_at},

@@ -9,22 +9,30 @@
 #include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
+namespace {
+
+Curve run_out_by(const Run& run, const char* front) {
+  if (!run.scene.bed) return {};
+  return run_out(run.curve(front), column_of(run));
+}
+
+}  // namespace
+
 ColumnSize column_of(const Run& run) {
   const double nominal = run.scene.bed->box.upper[1] - run.scene.bed->box.lower[1];
   return {run.facts.number("released_height_m").value_or(nominal), run.scene.gravity};
 }
 
 Curve run_out_curve(const Run& run) {
-  if (!run.scene.bed) return {};
-  // Others may give one front only; it then serves to the end.
-  const bool both = run.series.has("front_dilute");
-  return run_out(run.curve("front_dense"), run.curve(both ? "front_dilute" : "front_dense"), column_of(run));
+  return run_out_by(run, "front_dilute");
+}
+
+Curve run_out_dense_curve(const Run& run) {
+  return run_out_by(run, "front_dense");
 }
 
 Curve run_out_quantile_curve(const Run& run) {
-  if (!run.scene.bed) return {};
-  const Curve front = run.curve("front_quantile");
-  return run_out(front, front, column_of(run));
+  return run_out_by(run, "front_quantile");
 }
 
 Curve free_front(const Run& run) {

@@ -15,10 +15,10 @@ namespace granvof::compare {
 // when it was released.
 ColumnSize column_of(const Run& run);
 
-// Run-out (l - l0) / h0 [-] against T [-]; empty for a scene without a bed.
+// Run-out (l - l0) / h0 [-] against T [-], by the three fronts of run_out.hpp; empty for a scene without a
+// bed or a series without that front.
 Curve run_out_curve(const Run& run);
-
-// The same for the place that 99.5 % of the grains have not passed: it hangs on no threshold of f_s.
+Curve run_out_dense_curve(const Run& run);
 Curve run_out_quantile_curve(const Run& run);
 
 // The dense front [m] against t [s], up to where it meets the far end of the tank.

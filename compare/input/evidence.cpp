@@ -77,6 +77,8 @@ void require_series(const Series& series, const fs::path& file, const StatedSeri
   if (static_cast<std::int64_t>(times.size()) != stated.rows)
     throw OutputError("use", file,
                       fmt::format("it has {} whole rows, written were {}", times.size(), stated.rows));
+  if (asked.rows > 0 && stated.rows != asked.rows)
+    throw OutputError("use", file, fmt::format("it has {} rows, asked for were {}", stated.rows, asked.rows));
   if (times.size() < 2) throw OutputError("use", file, fmt::format("it has {} rows", times.size()));
   const double slack = rounding * asked.end;
   if (!stated.end || std::abs(times.back() - *stated.end) > slack)

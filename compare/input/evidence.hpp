@@ -34,6 +34,7 @@ struct StatedFiles {
 struct Asked {
   double interval = 0.0;  // between rows [s]; 0: unknown, the mean of the rows that there are stands for it
   double end = 0.0;       // [s]
+  std::int64_t rows = 0;  // 0: unknown
 };
 
 // Rows may be apart by no more than this multiple of the interval: one that is missing leaves a gap of two.

@@ -128,7 +128,8 @@ Series read_evidence(const std::filesystem::path& directory, const RunFacts& fac
   Series series = read_series(file);
   require_series(series, file, facts.files->series, asked);
   require_digest(file, facts.files->series.sha256);
-  require_fields(directory, facts.files->fields, asked.end);
+  // Recorders write at the end of a step, which may come a little after what was asked.
+  require_fields(directory, facts.files->fields, asked.end + interval_of(series, asked));
   return series;
 }
 
@@ -182,7 +183,9 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
       loaded.reason = "the case has changed since the run: " + first_difference(before, now);
       return loaded;
     }
-    const Asked asked{scene.times.series_interval, scene.times.end};
+    const auto& rows = scene.times.row_times;
+    const Asked asked{rows.size() > 1 ? rows[1] - rows[0] : 0.0, scene.times.end,
+                      static_cast<std::int64_t>(rows.size())};
     loaded.run =
         Run{std::string(id), directory, scene, *loaded.facts, read_evidence(directory, *loaded.facts, asked),
             asked.interval};

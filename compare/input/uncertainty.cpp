@@ -17,6 +17,7 @@ struct Entry {
 // The front at f_s = 0.30 moves with the cells as the dense one does.
 constexpr std::array table{
     Entry{"run_out", "front_dense [m]", true},
+    Entry{"run_out_dense", "front_dense [m]", true},
     Entry{"run_out_quantile", "front_quantile [m]", true},
     Entry{"front", "front_dense [m]", false},
     Entry{"grain_front", "front_dense [m]", false},

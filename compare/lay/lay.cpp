@@ -27,7 +27,8 @@ struct Derived {
 };
 
 constexpr std::array derived{
-    Derived{"run_out", "-", "front_dense", "T [-]", run_out_curve},
+    Derived{"run_out", "-", "front_dilute", "T [-]", run_out_curve},
+    Derived{"run_out_dense", "-", "front_dense", "T [-]", run_out_dense_curve},
     Derived{"excess_base_pressure", "Pa", "p_base", "t [s]", excess_base_pressure},
 };
 

@@ -9,22 +9,17 @@ double collapse_time(const ColumnSize& column) {
   return std::sqrt(column.height / column.gravity);
 }
 
-Curve run_out(const Curve& front_dense, const Curve& front_dilute, const ColumnSize& column) {
+Curve run_out(const Curve& front, const ColumnSize& column) {
+  const auto start = value_at(front, 0.0);
+  if (!start) return {};
   const double tau = collapse_time(column);
-  const double change = dense_front_until * tau * (1.0 + 1e-9);
   Curve scaled;
-  scaled.widest = std::min(front_dense.widest, front_dilute.widest) / tau;
-  const auto append = [&](const Curve& front, bool early) {
-    const auto start = value_at(front, 0.0);
-    if (!start) return;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      if ((front.time[i] <= change) != early || front.time[i] < 0.0) continue;
-      scaled.time.push_back(front.time[i] / tau);
-      scaled.value.push_back((front.value[i] - *start) / column.height);
-    }
-  };
-  append(front_dense, true);
-  append(front_dilute, false);
+  scaled.widest = front.widest / tau;
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    if (front.time[i] < 0.0) continue;
+    scaled.time.push_back(front.time[i] / tau);
+    scaled.value.push_back((front.value[i] - *start) / column.height);
+  }
   return scaled;
 }
 

@@ -1,8 +1,11 @@
 // Run-out of a collapsing column, (l - l0) / h0 against T = t / sqrt(h0 / g) (paper, section 4.1, Fig. 4).
 //
-// The front l by f_s = 0.95 f_s,min ("dense") is clean until T = 8; later the toe is one cell thick and that
-// threshold makes it jump, so the front by f_s = 0.30 ("dilute") is used beyond. Each definition starts from
-// its own front at t = 0, so that the two meet without an offset that only their thresholds would make.
+// One definition of the front l from the first row to the last, and l0 is that front at t = 0. "run_out"
+// takes the front by f_s = 0.30: it is there in every code at every time, whatever the packing of its toe.
+// The paper's own, by f_s = 0.95 f_s,min, is "run_out_dense": from T of about 8 on, when the toe is a cell
+// thick, and in dry flows, whose toe is looser than that, it says how dense the toe is rather than where.
+// "run_out_quantile" is that of the place left of which 99.5 % of the grains lie: it counts grains that run
+// ahead alone.
 #pragma once
 
 #include "compare/metrics/curve.hpp"
@@ -14,14 +17,12 @@ struct ColumnSize {
   double gravity = 0.0;  // g [m/s2], > 0
 };
 
-inline constexpr double dense_front_until = 8.0;  // T up to which the dense front is used [-]
-
 // Time scale tau0 = sqrt(h0 / g) [s].
 double collapse_time(const ColumnSize& column);
 
-// Run-out [-] against T [-] from the fronts [m, distance from the column's wall] against t [s]; a front that
-// is undefined at t = 0 contributes nothing.
-Curve run_out(const Curve& front_dense, const Curve& front_dilute, const ColumnSize& column);
+// Run-out [-] against T [-] from a front [m, distance from the column's wall] against t [s]; nothing for a
+// front that is undefined at t = 0.
+Curve run_out(const Curve& front, const ColumnSize& column);
 
 // The samples before the front [m] first comes within `cell` [m] of the wall at `far_end` [m]: from there on
 // the wall sets it, and a front is known to no better than a cell. All of them where it never does.

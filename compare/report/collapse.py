@@ -1,7 +1,7 @@
 """Figures of the collapses: run-out and pore pressure of the submerged ones, run-out of the floating ones."""
 
 from report import style
-from report.drawing import FRONT_CHANGES, draw_peers, draw_published, draw_records, draw_run, finish, runs_with
+from report.drawing import draw_peers, draw_published, draw_records, draw_run, finish, runs_with
 from report.style import plt
 
 
@@ -15,16 +15,12 @@ def run_out_plot(results, directory):
         return []
     figure, axis = plt.subplots(figsize=(5.6, 4.0))
     for run, colour in zip(shown, style.CYCLE):
-        draw_run(axis, results, run, "run_out", colour, f"continuum, {run.upper()}", breaks_at=FRONT_CHANGES)
-        draw_run(axis, results, f"{run}-sourced", "run_out", colour, f"with all choices, {run.upper()}", breaks_at=FRONT_CHANGES,
-                 linestyle="-.")
-        draw_records(axis, results, run, "run_out", colour, run.upper(), breaks_at=FRONT_CHANGES)
+        draw_run(axis, results, run, "run_out", colour, f"continuum, {run.upper()}")
+        draw_run(axis, results, f"{run}-sourced", "run_out", colour, f"with all choices, {run.upper()}", linestyle="-.")
+        draw_records(axis, results, run, "run_out", colour, run.upper())
         draw_peers(axis, results, run, "run_out")
-    axis.axvline(FRONT_CHANGES, color="0.7", linewidth=0.8)
-    axis.text(FRONT_CHANGES, axis.get_ylim()[0], "front: $f_s = 0.95 f_{s,min}$ | $f_s = 0.30$", fontsize=6.5, color="0.4",
-              ha="center", va="bottom")
     axis.set_xlim(left=0)
-    return finish(figure, axis, r"$T = t / \sqrt{h_0 / g}$ [-]", r"run-out $(l - l_0) / h_0$ [-]", results, shown, directory,
+    return finish(figure, axis, r"$T = t / \sqrt{h_0 / g}$ [-]", r"run-out $(l - l_0) / h_0$, front at $f_s = 0.30$ [-]", results, shown, directory,
                   "run-out")
 
 

@@ -6,20 +6,18 @@ import numpy as np
 from report import style
 from report.results import arrays
 
-FRONT_CHANGES = 8.0  # T at which run_out changes from the dense to the dilute front (compare/metrics/run_out.hpp)
 
-
-def draw_run(axis, results, run, curve, colour, label, scale=1.0, breaks_at=None, linestyle="-"):
+def draw_run(axis, results, run, curve, colour, label, scale=1.0, linestyle="-"):
     """Our own curve; False where there is none."""
     found = results.curve(run, curve)
     if not found:
         return False
-    x, y = found if breaks_at is None else with_gap(*found, breaks_at)
+    x, y = found
     axis.plot(x, scale * y, color=colour, label=label, linestyle=linestyle)
     return True
 
 
-def draw_records(axis, results, scene, curve, colour, label, scale=1.0, breaks_at=None):
+def draw_records(axis, results, scene, curve, colour, label, scale=1.0):
     """The recorded DEM-VOF seeds of a scene: their mean, and as a band their range. One seed has no band, and its label
     says so. False where there is no record."""
     seeds = [found for entry in results.records.get(scene, {}).values() if (found := arrays(entry, curve))]
@@ -27,15 +25,11 @@ def draw_records(axis, results, scene, curve, colour, label, scale=1.0, breaks_a
         return False
     begin, end = max(x[0] for x, _ in seeds), min(x[-1] for x, _ in seeds)
     common = np.linspace(begin, end, 400)
-    if breaks_at is not None:  # nothing between the last sample of one definition and the first of the next
-        common = common[(common <= breaks_at) | (common >= max((x[x > breaks_at].min(initial=end) for x, _ in seeds)))]
     stack = scale * np.array([np.interp(common, x, y) for x, y in seeds])
-    x, mean = common, stack.mean(axis=0)
-    if breaks_at is not None:
-        x, mean = with_gap(x, mean, breaks_at)
+    mean = stack.mean(axis=0)
     text = f"DEM-VOF{label and ', ' + label} ({band_of(len(seeds))})"
     known = axis.get_legend_handles_labels()[1]
-    axis.plot(x, mean, color=colour, linestyle="--", linewidth=1.2, label=None if text in known else text)
+    axis.plot(common, mean, color=colour, linestyle="--", linewidth=1.2, label=None if text in known else text)
     if len(seeds) > 1:
         axis.fill_between(common, stack.min(axis=0), stack.max(axis=0), color=colour, alpha=0.25, linewidth=0)
     return True
@@ -61,14 +55,6 @@ def draw_published(axis, results, file, column, colour, label, scale=1.0):
     axis.plot(series[0], scale * series[1], color=colour, linestyle="none", marker="o", markersize=4, markerfacecolor="none",
               label=label)
     return True
-
-
-def with_gap(x, y, at):
-    """The curve with a break at `at`, where its definition changes."""
-    index = np.searchsorted(x, at * (1 + 1e-9), side="right")
-    if 0 < index < len(x):
-        return np.insert(x, index, at), np.insert(y, index, np.nan)
-    return x, y
 
 
 def runs_with(results, runs, curve):

@@ -27,6 +27,7 @@ Curve front(const Run& run) {
 
 constexpr std::array curves{
     CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve},
+    CurveEntry{"run_out_dense", "T", "-", "(l - l0) / h0 by f_s >= 0.95 f_s,min", run_out_dense_curve},
     CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front},
     CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height},
     CurveEntry{"liquid_front", "tau", "-", "x / a of the water front against t sqrt(2 g / a)",

@@ -34,8 +34,7 @@ class Evaluate : public testing::Test {
   // A front that runs from 0.1 m at `speed`, to T = 10 of s1, as often as asked; a last row may be added.
   std::string series(double speed, const std::string& last_row = "") const {
     std::string text = "time [s],front_dense [m],front_dilute [m],solid_volume [m3]\n";
-    for (int i = 0; i <= 200; ++i) {
-      const double t = scene_.times.series_interval * i;
+    for (const double t : scene_.times.row_times) {
       const double x = 0.1 + speed * t;
       text += fmt::format("{},{},{},0.002\n", t, x, x);
     }
@@ -70,9 +69,10 @@ class Evaluate : public testing::Test {
         Frequency::verify, paths_);
   }
 
+  double height_of_s1() const { return scene_.bed->box.upper[1] - scene_.bed->box.lower[1]; }
   // The run-out at T = 5 is 5 tau speed / h0.
   double run_out_at_5(double speed) const {
-    const double height = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
+    const double height = height_of_s1();
     return 5.0 * std::sqrt(height / scene_.gravity) * speed / height;
   }
 
@@ -88,6 +88,27 @@ class Evaluate : public testing::Test {
   Paths paths_{root_ / "runs", fs::path(GRANVOF_CASES_DIR), root_ / "records"};
   Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml");
 };
+
+// A toe that is too loose for the dense front from T = 8 on: the run-out goes on by the front it began with.
+TEST_F(Evaluate, ARunOutKeepsItsDefinitionToTheEnd) {
+  std::string text = "time [s],front_dense [m],front_dilute [m]\n";
+  for (const double t : scene_.times.row_times) {
+    text += fmt::format("{},{},{}\n", t, 0.1 + 0.1 * std::min(t, 0.4), 0.102 + 0.1 * t);
+  }
+  write_run("s1", text);
+  const auto at = [&](const char* metric, double time) {
+    return *evaluate_row(fmt::format("metric = \"{}\"\nat = {}\nreference = {{ kind = \"theory\", value = 0, "
+                                     "source = \"x\" }}\ntolerance = {{ absolute = 1, unit = \"-\" }}\n",
+                                     metric, time))
+                .results[0]
+                .value;
+  };
+  for (const double time : {2.0, 5.0, 7.9, 8.0, 8.1, 10.0}) {
+    EXPECT_NEAR(at("run_out", time), run_out_at_5(0.1) * time / 5.0, 1e-4) << time;
+    EXPECT_NEAR(at("run_out_dense", time), std::min(run_out_at_5(0.1) * time / 5.0, 0.04 / height_of_s1()),
+                1e-4);
+  }
+}
 
 TEST_F(Evaluate, AUsableRunIsJudged) {
   write_run("s1", series(0.1));

@@ -82,6 +82,11 @@ TEST_F(Evidence, RowsTakenOutAreAHoleWhateverIsStated) {
   }
 }
 
+TEST_F(Evidence, RowsMustBeAsManyAsAskedFor) {
+  EXPECT_EQ(complaint(joined(lines()), 179, 17.8, {0.1, 17.8, 179}), "");
+  EXPECT_EQ(complaint(joined(lines()), 179, 17.8, {0.1, 17.8, 178}), "it has 179 rows, asked for were 178");
+}
+
 TEST_F(Evidence, TimeMustAscend) {
   auto twice = lines();
   twice[50] = twice[49];

@@ -37,11 +37,11 @@ class Lay : public testing::Test {
   const double tau_ = std::sqrt(height_ / scene_.gravity);
   // Our front moves h0 in 2 tau.
   const compare::Run ours_ =
-      theirs("T [-],front_dense [m]\n0,0.1\n2," + std::to_string(0.1 + height_) + "\n");
+      theirs("T [-],front_dilute [m]\n0,0.1\n2," + std::to_string(0.1 + height_) + "\n");
 };
 
 TEST_F(Lay, FrontsInMetresAgainstSecondsMeetOurs) {
-  const compare::Run run = theirs("time [s],front_dense [m]\n0,0.2\n" + std::to_string(2 * tau_) + "," +
+  const compare::Run run = theirs("time [s],front_dilute [m]\n0,0.2\n" + std::to_string(2 * tau_) + "," +
                                   std::to_string(0.2 + 0.5 * height_) + "\n");
   const auto curves = lay(ours_, run);
   ASSERT_EQ(curves.size(), 2u);  // the derived run-out, and the front itself
@@ -49,7 +49,7 @@ TEST_F(Lay, FrontsInMetresAgainstSecondsMeetOurs) {
   EXPECT_NEAR(*curves[0].ours_at_end, 1.0, 1e-3);
   EXPECT_NEAR(*curves[0].theirs_at_end, 0.5, 1e-3);
   EXPECT_NEAR(curves[0].window.end, 2.0, 1e-3);
-  EXPECT_EQ(curves[1].name, "front_dense");
+  EXPECT_EQ(curves[1].name, "front_dilute");
 }
 
 TEST_F(Lay, RunOutMayBeGivenDirectly) {

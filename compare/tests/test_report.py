@@ -126,12 +126,6 @@ def test_a_plot_without_its_runs_is_left_out(verify_directory, tmp_path):
     assert figures.draw_all(loaded, tmp_path / "plots") == []
 
 
-def test_the_run_out_curve_breaks_where_its_definition_changes():
-    x, y = drawing.with_gap(np.array([7.0, 8.0, 9.0]), np.array([1.0, 2.0, 3.0]), 8.0)
-    assert np.isnan(y).tolist() == [False, False, True, False]
-    assert drawing.with_gap(np.array([1.0, 2.0]), np.array([1.0, 2.0]), 8.0)[1].tolist() == [1.0, 2.0]
-
-
 @pytest.fixture
 def axis():
     figure, drawn = style.plt.subplots()
@@ -162,14 +156,6 @@ def test_two_seeds_are_their_mean_with_their_range(axis, verify_directory):
     assert axis.lines[0].get_ydata()[-1] == 2.25
     band = axis.collections[0].get_paths()[0].vertices
     assert {y for x, y in band if x == 2.0} == {2.0, 2.5}
-
-
-def test_a_recorded_curve_breaks_where_its_definition_changes(axis, verify_directory):
-    loaded = results.load(verify_directory)
-    loaded.records = {"s1": {"seed1": {"curves": {"run_out": {"x": [0.0, 7.9, 8.1, 10.0], "y": [0.0, 1.0, 2.0, 2.0]}}}}}
-    drawing.draw_records(axis, loaded, "s1", "run_out", style.BLUE, "", breaks_at=8.0)
-    x, y = axis.lines[0].get_data()
-    assert not ((x > 8.0) & (x < 8.1)).any() and np.isnan(y).sum() == 1
 
 
 def test_without_a_record_nothing_is_drawn(axis, verify_directory):

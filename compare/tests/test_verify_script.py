@@ -41,8 +41,8 @@ def test_runs_what_the_plan_says(verify, tmp_path, capsys):
     assert verify.main(stand_ins(tmp_path)) == 0
     calls = sorted((tmp_path / "calls").read_text().splitlines())
     assert len(calls) == 2
-    assert "cases/s1.toml" in calls[0] and calls[0].endswith("out/runs/a --threads 1")
-    assert calls[1].endswith("out/runs/b --threads 1 --set grid.dx=0.005 --set model.drag=false")
+    assert "cases/s1.toml" in calls[0] and calls[0].endswith("out/runs/a --threads 1 --force")
+    assert calls[1].endswith("out/runs/b --threads 1 --force --set grid.dx=0.005 --set model.drag=false")
     printed = capsys.readouterr().out
     assert "a " in printed and "done" in printed
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "solver/grid/layout.hpp"
+#include "solver/grid/ordered_sum.hpp"
 
 namespace granvof {
 
@@ -51,7 +52,7 @@ inline void for_each(const Layout& l, Body&& body) {
   for_each(l, Range::all(l), body);
 }
 
-// Sum over the range of body(index).
+// Sum over the range of body(index), in an order that is that of the range alone.
 template <typename Body>
 inline double sum_over(const Layout& l, const Range& r, Body&& body) {
   const int rows_y = r.upper[1] - r.lower[1];
@@ -59,16 +60,18 @@ inline double sum_over(const Layout& l, const Range& r, Body&& body) {
   const int length = r.upper[0] - r.lower[0];
   const int rows = rows_y * rows_z;
   const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
-  double total = 0.0;
-#pragma omp parallel for schedule(static) reduction(+ : total) if (parallel)
-  for (int row = 0; row < rows; ++row) {
-    const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
-    double line = 0.0;
+  std::array<double, sum_blocks> partial{};
+#pragma omp parallel for schedule(static) if (parallel)
+  for (int block = 0; block < sum_blocks; ++block) {
+    partial[block] = sum_of_block(rows, block, [&](int row) {
+      const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
+      double line = 0.0;
 #pragma omp simd reduction(+ : line)
-    for (int i = 0; i < length; ++i) line += body(start + i);
-    total += line;
+      for (int i = 0; i < length; ++i) line += body(start + i);
+      return line;
+    });
   }
-  return total;
+  return sum_of_blocks(partial);
 }
 
 // Largest value over the range of body(index), at least `floor`; a NaN anywhere is returned as NaN.

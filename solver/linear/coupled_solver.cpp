@@ -191,9 +191,7 @@ CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPai
   if (any_periodic(layout_))
     for (auto& component : v) communicator_.exchange(layout_, component.data());
   const int n = user_.n[0];
-  double self = 0.0;  // summed beside the product that sum_rows returns
-  const bool threads = worth_threads(layout_);
-  const double product = with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+  return with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
     return sum_rows(layout_, [&](int j, int k) {
       product_row<X, Y, Z>(s, v[0].data(), v[1].data(), j, k, out[0].data(), out[1].data());
       const std::ptrdiff_t row = layout_.index(0, j, k);
@@ -206,16 +204,9 @@ CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPai
           b += o[i] * o[i];
         }
       }
-      if (threads) {
-#pragma omp atomic
-        self += b;
-      } else {
-        self += b;
-      }
-      return a;
+      return Products{a, b};
     });
   });
-  return {product, self};
 }
 
 // r -= factor what; the largest values of r.

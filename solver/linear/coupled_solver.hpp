@@ -48,6 +48,11 @@ class CoupledSolver {
   // Scalar products of one product with the matrix: with the given pair, and with itself.
   struct Products {
     double with = 0.0, self = 0.0;
+    Products& operator+=(const Products& other) {
+      with += other.with;
+      self += other.self;
+      return *this;
+    }
   };
   using Pair = std::array<Buffer<double>, 2>;
   using FloatPair = std::array<Buffer<float>, 2>;

@@ -8,6 +8,7 @@
 
 #include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
+#include "solver/grid/ordered_sum.hpp"
 #include "solver/linear/flush_denormals.hpp"
 
 namespace granvof::linear {
@@ -35,23 +36,25 @@ inline void for_rows(const Layout& l, Body&& body) {
   }
 }
 
-// Sum over the rows of body(j, k).
+// Sum over the rows of body(j, k), a number or a struct with +=; its order does not depend on the threads.
 template <typename Body>
-inline double sum_rows(const Layout& l, Body&& body) {
-  const int ny = l.n[1], nz = l.n[2];
-  double total = 0.0;
+inline auto sum_rows(const Layout& l, Body&& body) {
+  const int ny = l.n[1], rows = l.n[1] * l.n[2];
+  std::array<decltype(body(0, 0)), sum_blocks> partial{};
+  const auto add_up = [&](int block) {
+    partial[block] = sum_of_block(rows, block, [&](int row) { return body(row % ny, row / ny); });
+  };
   if (worth_threads(l)) {
-#pragma omp parallel reduction(+ : total)
+#pragma omp parallel
     {
       const FlushDenormals flush;
 #pragma omp for schedule(static)
-      for (int row = 0; row < ny * nz; ++row) total += body(row % ny, row / ny);
+      for (int block = 0; block < sum_blocks; ++block) add_up(block);
     }
   } else {
-    for (int k = 0; k < nz; ++k)
-      for (int j = 0; j < ny; ++j) total += body(j, k);
+    for (int block = 0; block < sum_blocks; ++block) add_up(block);
   }
-  return total;
+  return sum_of_blocks(partial);
 }
 
 // Largest body(j, k) >= 0 over the rows; infinity if one of them is not a number.

@@ -91,6 +91,15 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   rename_into_place(path);
 }
 
+void overwrite_file(const std::filesystem::path& path, std::string_view content) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!file.valid()) throw OutputError("write", path, reason(errno));
+  write_all(file, content, path);
+  if (::ftruncate(file.get(), static_cast<off_t>(content.size())) != 0)
+    throw OutputError("write", path, reason(errno));
+  sync(file, path);
+}
+
 std::string read_file(const std::filesystem::path& path) {
   std::error_code unknown;
   // A stream opens a directory and reads nothing from it.

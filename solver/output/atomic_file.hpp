@@ -15,6 +15,10 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 void write_beside(const std::filesystem::path& path, std::string_view content);  // writes path.tmp
 void rename_into_place(const std::filesystem::path& path);                       // path.tmp -> path
 
+// The last resort of a full disk: the content goes over that of an existing file, which needs no new room
+// where it is about as long. A kill meanwhile leaves neither. Throws OutputError.
+void overwrite_file(const std::filesystem::path& path, std::string_view content);
+
 // Whole content of a file. Throws OutputError.
 std::string read_file(const std::filesystem::path& path);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "solver/output/extract_motion.hpp"
 #include "solver/output/measures.hpp"
 
 namespace granvof::scalar {
@@ -26,6 +25,21 @@ Value centre_height(const CellFields& fields, double threshold) {
   }
   if (weight == 0.0) return std::nullopt;
   return moment / weight;
+}
+
+// Upper edge of the dense bed in a profile of f_s, in rows: the last dense row and the one above it are full
+// up to their share between what lies above them (a suspension, or nothing) and the packing below. Exact for
+// a sharp edge anywhere in a cell, at any packing, and continuous as rows become dense.
+Value upper_edge(const std::vector<double>& profile, double threshold) {
+  const auto dense = std::find_if(profile.rbegin(), profile.rend(), [&](double f) { return f >= threshold; });
+  if (dense == profile.rend()) return std::nullopt;
+  const auto last = static_cast<std::size_t>(profile.rend() - dense) - 1;
+  const auto at = [&](std::size_t row) { return row < profile.size() ? profile[row] : 0.0; };
+  if (last + 1 == profile.size()) return static_cast<double>(profile.size());
+  const double above = at(last + 2);
+  const double packing = last > 0 ? std::max(profile[last], profile[last - 1]) : profile[last];
+  const auto full = [&](double f) { return std::clamp((f - above) / (packing - above), 0.0, 1.0); };
+  return static_cast<double>(last) + full(at(last)) + full(at(last + 1));
 }
 
 }  // namespace
@@ -52,11 +66,17 @@ Value y_c(const CellFields& fields, const Scene& scene) {
 }
 
 Value bed_bottom(const CellFields& fields, const Scene& scene) {
-  return first_crossing(bed_profile_along_y(fields, scene), fields.spacing[1], dense_threshold(scene));
+  auto profile = bed_profile_along_y(fields, scene);
+  std::reverse(profile.begin(), profile.end());
+  const auto depth = upper_edge(profile, dense_threshold(scene));
+  if (!depth) return std::nullopt;
+  return (fields.cells[1] - *depth) * fields.spacing[1];
 }
 
 Value bed_top(const CellFields& fields, const Scene& scene) {
-  return last_crossing(bed_profile_along_y(fields, scene), fields.spacing[1], dense_threshold(scene));
+  const auto rows = upper_edge(bed_profile_along_y(fields, scene), dense_threshold(scene));
+  if (!rows) return std::nullopt;
+  return *rows * fields.spacing[1];
 }
 
 Value bed_height(const CellFields& fields, const Scene& scene) {
@@ -98,10 +118,10 @@ Value f_s_min(const CellFields& fields, const Scene&) {
   return *std::min_element(fields.f_s.begin(), fields.f_s.end());
 }
 
-Value theta_max(const CellFields& fields, const Scene&) {
+Value theta_max(const CellFields& fields, const Scene& scene) {
   Value largest;
   for (std::size_t c = 0; c < fields.f_s.size(); ++c) {
-    if (fields.f_s[c] < present_solid_fraction) continue;
+    if (fields.f_s[c] < present_threshold(scene)) continue;
     largest = std::max(largest.value_or(fields.theta[c]), fields.theta[c]);
   }
   return largest;

@@ -7,7 +7,8 @@
 
 namespace granvof::scalar {
 
-// Run-out: largest x with f_s >= 0.95 f_s,min over all rows and, in 3D, all z; linear between cell centres.
+// The paper's run-out: largest x with f_s >= 0.95 f_s,min over all rows and, in 3D, all z; linear between
+// cell centres.
 Value front_dense(const CellFields& fields, const Scene& scene);
 // The same per z, averaged over those z that have a dense cell.
 Value front_dense_mean(const CellFields& fields, const Scene& scene);

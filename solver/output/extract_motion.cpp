@@ -61,9 +61,10 @@ double potential_energy(const CellFields& fields, const Scene& scene, Share shar
 
 }  // namespace
 
-Value u_s_max(const CellFields& fields, const Scene&) {
+Value u_s_max(const CellFields& fields, const Scene& scene) {
+  const double threshold = present_threshold(scene);
   return largest_speed(fields.u_s, fields.f_s.size(),
-                       [&](std::size_t c) { return fields.f_s[c] >= present_solid_fraction; });
+                       [&](std::size_t c) { return fields.f_s[c] >= threshold; });
 }
 
 Value u_s_dense_max(const CellFields& fields, const Scene& scene) {

@@ -7,10 +7,8 @@
 
 namespace granvof::scalar {
 
-// Below this solid fraction the velocity and temperature of the grains mean nothing [-].
-inline constexpr double present_solid_fraction = 1e-3;
-
-// Largest |u_s| where f_s >= 1e-3 [m/s]; none without solid.
+// Largest |u_s| where f_s >= 0.1 f_s,min [m/s]; none without such a cell. One nearly empty cell that numerics
+// keep moving says nothing of the grains.
 Value u_s_max(const CellFields& fields, const Scene& scene);
 // Largest |u_s| where f_s >= 0.95 f_s,min [m/s]; none without a dense bed.
 Value u_s_dense_max(const CellFields& fields, const Scene& scene);

@@ -1,5 +1,6 @@
 #include "solver/output/fields_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <stdexcept>
@@ -111,6 +112,31 @@ void copy_group(hid_t source, const std::string& name, hid_t target, const std::
   }
 }
 
+// Whether "fields/NAME" is the file of an instant >= first, or a draft of one.
+bool is_piece(std::string name, std::size_t first) {
+  if (name.ends_with(".tmp")) name.resize(name.size() - 4);
+  if (!name.starts_with('t') || !name.ends_with(".h5")) return false;
+  const std::string digits = name.substr(1, name.size() - 4);
+  return digits.size() >= 4 && digits.size() < 10 &&
+         std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; }) &&
+         std::stoul(digits) >= first;
+}
+
+// Removes the files of the instants from `first` on, and the folder if that leaves it empty: what else is in
+// it is not ours.
+void remove_pieces(const fs::path& folder, std::size_t first) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  std::vector<fs::path> pieces;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_piece(entry.path().filename().string(), first)) pieces.push_back(entry.path());
+  for (const fs::path& file : pieces) {
+    fs::remove(file, error);
+    if (error) throw OutputError("replace", file, error.message());
+  }
+  fs::remove(folder, error);  // fails where something is left, and should
+}
+
 }  // namespace
 
 void check_sizes(const CellFields& fields) {
@@ -154,7 +180,21 @@ FieldsFile FieldsFile::create(const fs::path& directory, const Scene& scene) {
   return file;
 }
 
-FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, double last_time) {
+void FieldsFile::check_instants(const fs::path& directory, std::span<const double> times) {
+  const auto path = directory / file_name;
+  const std::vector<double> there = read_field_times(path);
+  for (std::size_t index = 0; index < times.size(); ++index) {
+    if (index < there.size() && there[index] == times[index]) continue;
+    throw OutputError(
+        "resume", path,
+        fmt::format("instant {} should be of t = {} s, the case asks for it before the checkpoint, and {}",
+                    index + 1, times[index],
+                    index < there.size() ? fmt::format("is of {} s", there[index]) : "is not there"));
+  }
+}
+
+FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, std::span<const double> times) {
+  check_instants(directory, times);
   FieldsFile result(directory, scene);
   const auto path = directory / file_name;
   {
@@ -162,31 +202,42 @@ FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, dou
     const auto file = hdf5::open_for_reading(path);
     with_path("resume", path, [&] {
       fs::create_directories(directory / pieces_directory);
-      const auto count = hdf5::names_in(file).size();
-      for (std::size_t index = 0; index < count; ++index) {
+      for (std::size_t index = 0; index < times.size(); ++index) {
         const auto name = group_name(index);
         const auto group = hdf5::open_group(file, name);
-        const double time = hdf5::read_double_attribute(group, "time");
-        if (time > last_time) break;
         const auto target = result.piece(index);
         if (!fs::exists(target)) {  // fields.h5 has been joined: take the instant out again
           const auto memory = hdf5::create_in_memory();
           copy_group(file, name, memory, "instant");
           write_file_atomically(target, hdf5::content_of(memory));
         }
-        result.instants_.push_back({time, hdf5::exists(group, "p_s")});
+        result.instants_.push_back({times[index], hdf5::exists(group, "p_s")});
       }
     });
   }
   result.write_index();
-  for (std::size_t index = result.instants_.size(); fs::exists(result.piece(index)); ++index) {
-    fs::remove(result.piece(index));
-  }
+  remove_pieces(directory / pieces_directory, result.instants_.size());
   return result;
+}
+
+void FieldsFile::remove(const fs::path& directory) {
+  for (const char* name : {"fields.xdmf", "fields.xdmf.tmp", "fields.h5", "fields.h5.tmp"}) {
+    std::error_code error;
+    fs::remove(directory / name, error);
+    if (error) throw OutputError("replace", directory / name, error.message());
+  }
+  remove_pieces(directory / pieces_directory, 0);
+}
+
+void FieldsFile::check_still_there() const {
+  for (std::size_t index = 0; index < instants_.size(); ++index)
+    if (!fs::exists(piece(index)))
+      throw OutputError("write", piece(index), "it was removed while the run went on");
 }
 
 void FieldsFile::append(const CellFields& fields) {
   check_sizes(fields);
+  if (!instants_.empty() && !fs::exists(piece(instants_.size() - 1))) check_still_there();
   if (fields.cells != cells_) throw std::invalid_argument("the fields have not the grid of the scene");
   const auto path = piece(instants_.size());
   const std::string content = with_path("write", path, [&] {
@@ -269,7 +320,7 @@ bool FieldsFile::join() {
     fs::remove(draft, ignored);
     return false;
   }
-  fs::remove_all(directory_ / pieces_directory, ignored);
+  remove_pieces(directory_ / pieces_directory, 0);
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,20 @@ class FieldsFile {
  public:
   // Writes an empty fields.h5 and fields.xdmf into `directory`. Throws OutputError.
   static FieldsFile create(const std::filesystem::path& directory, const Scene& scene);
-  // Goes on with what is there; instants later than `last_time` [s] are removed. Throws OutputError.
-  static FieldsFile resume(const std::filesystem::path& directory, const Scene& scene, double last_time);
+  // Goes on behind the instants of `times` [s], ascending; later ones are removed. Throws OutputError, also
+  // where the first instants are not of these times.
+  static FieldsFile resume(const std::filesystem::path& directory, const Scene& scene,
+                           std::span<const double> times);
+  // Throws as resume() does, and touches nothing.
+  static void check_instants(const std::filesystem::path& directory, std::span<const double> times);
+  // Removes what a FieldsFile left in `directory`, and nothing else. Throws OutputError.
+  static void remove(const std::filesystem::path& directory);
 
   // Adds an instant. Throws OutputError; std::invalid_argument if an array has not the size of the grid.
   void append(const CellFields& fields);
+  // Throws OutputError if an instant has been removed since it was written.
+  void check_still_there() const;
+  std::size_t instants() const { return instants_.size(); }
 
   // Joins all instants into one file. False, and nothing changed, where that was not possible (disk full).
   bool join();

@@ -23,6 +23,13 @@ Handle space_of(std::span<const hsize_t> shape) {
           H5Sclose};
 }
 
+// Properties of a new dataset. HDF5 would put the hour into it, and two runs would not be equal to the byte.
+Handle dataset_properties() {
+  Handle properties(checked(H5Pcreate(H5P_DATASET_CREATE), "property list"), H5Pclose);
+  checked(H5Pset_obj_track_times(properties, false), "property list");
+  return properties;
+}
+
 Handle open_dataset(hid_t group, const std::string& name) {
   return {checked(H5Dopen2(group, name.c_str(), H5P_DEFAULT), "dataset " + name), H5Dclose};
 }
@@ -187,7 +194,7 @@ std::string read_string_attribute(hid_t object, const std::string& name) {
 
 void write_compressed(hid_t group, const std::string& name, std::span<const hsize_t> shape,
                       std::span<const float> values) {
-  const Handle properties(checked(H5Pcreate(H5P_DATASET_CREATE), "property list"), H5Pclose);
+  const Handle properties = dataset_properties();
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
   chunk.front() = 1;
   checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), "chunks");
@@ -204,7 +211,7 @@ void write_compressed(hid_t group, const std::string& name, std::span<const hsiz
 void write_doubles(hid_t group, const std::string& name, std::span<const double> values) {
   const hsize_t shape[] = {values.size()};
   const Handle dataset(checked(H5Dcreate2(group, name.c_str(), H5T_IEEE_F64LE, space_of(shape), H5P_DEFAULT,
-                                          H5P_DEFAULT, H5P_DEFAULT),
+                                          dataset_properties(), H5P_DEFAULT),
                                "dataset " + name),
                        H5Dclose);
   checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),

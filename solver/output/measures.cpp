@@ -47,6 +47,10 @@ double dense_threshold(const Scene& scene) {
   return 0.95 * scene.contact.solid_fraction_min;
 }
 
+double present_threshold(const Scene& scene) {
+  return 0.1 * scene.contact.solid_fraction_min;
+}
+
 double cell_volume(const CellFields& fields, const Scene& scene) {
   const double thickness = scene.dimensions == 2 ? scene.tank[2] / fields.cells[2] : fields.spacing[2];
   return fields.spacing[0] * fields.spacing[1] * thickness;
@@ -120,16 +124,6 @@ Value last_crossing(const std::vector<double>& values, double spacing, double th
     const double centre = (static_cast<double>(c) + 0.5) * spacing;
     if (c + 1 == values.size()) return static_cast<double>(values.size()) * spacing;
     return centre + spacing * (values[c] - threshold) / (values[c] - values[c + 1]);
-  }
-  return std::nullopt;
-}
-
-Value first_crossing(const std::vector<double>& values, double spacing, double threshold) {
-  for (std::size_t c = 0; c < values.size(); ++c) {
-    if (values[c] < threshold) continue;
-    if (c == 0) return 0.0;
-    const double centre = (static_cast<double>(c) + 0.5) * spacing;
-    return centre - spacing * (values[c] - threshold) / (values[c] - values[c - 1]);
   }
   return std::nullopt;
 }

@@ -19,6 +19,10 @@ void check_fields(const CellFields& fields, const Scene& scene);
 // 0.95 f_s,min, the edge of a dense bed [-].
 double dense_threshold(const Scene& scene);
 
+// A tenth of f_s,min: a cell that holds less has no bed in it but what numerics spread there, of less than a
+// grain in most of our cells, and its velocity and temperature mean nothing [-].
+double present_threshold(const Scene& scene);
+
 // Volume of a cell [m3]. In 2D all layers of cells together (one in the solver, a slice of several in the
 // reference) stand for the tank's depth, so that volumes and energies of both programs compare.
 double cell_volume(const CellFields& fields, const Scene& scene);
@@ -40,8 +44,6 @@ std::vector<double> share_under_bed(const CellFields& fields, const Scene& scene
 // Largest position, from cell centres (c + 1/2) h, at which the polyline through `values` is >= threshold;
 // the far end n h if the last value is; none if no value is.
 Value last_crossing(const std::vector<double>& values, double spacing, double threshold);
-// Smallest such position; 0 if the first value is >= threshold.
-Value first_crossing(const std::vector<double>& values, double spacing, double threshold);
 
 // Index of a cell in the arrays of CellFields.
 inline std::size_t cell_index(const CellFields& fields, int i, int j, int k) {

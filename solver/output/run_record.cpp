@@ -34,6 +34,39 @@ std::string_view exit_state_name(ExitState state) {
   return "";
 }
 
+ordered_json resumption_json(const Resumption& resumption) {
+  ordered_json changes = ordered_json::array();
+  for (const CaseChange& change : resumption.changes)
+    changes.push_back({{"key", change.key}, {"was", change.was}, {"is", change.is}});
+  return {{"date", resumption.date},
+          {"time", resumption.time},
+          {"threads", resumption.threads},
+          {"changes", changes}};
+}
+
+Resumption resumption_of(const ordered_json& json) {
+  Resumption resumption{json.at("date"), json.at("time"), json.value("threads", 1), {}};
+  for (const auto& change : json.value("changes", ordered_json::array()))
+    resumption.changes.push_back({change.at("key"), change.at("was"), change.at("is")});
+  return resumption;
+}
+
+template <class T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+ordered_json files_json(const FilesWritten& files) {
+  return {{"series.csv",
+           {{"rows", files.series.rows},
+            {"end", or_null(files.series.end)},
+            {"columns", files.series.columns},
+            {"sha256", files.series.sha256}}},
+          {"fields.h5",
+           {{"instants", files.instants},
+            {"sha256", files.fields_sha256.empty() ? ordered_json() : ordered_json(files.fields_sha256)}}}};
+}
+
 ordered_json host_json() {
   const auto host = host_facts();
   const auto& build = build_info();
@@ -46,7 +79,7 @@ ordered_json host_json() {
 }  // namespace
 
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
-                            const RunExit& exit) {
+                            const FilesWritten& files, const RunExit& exit) {
   const auto& build = build_info();
   ordered_json json;
   json["format"] = format_name;
@@ -60,9 +93,8 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
   json["command"] = record.start.command;
   json["start_date"] = record.start_date;
   json["resumptions"] = ordered_json::array();
-  for (const auto& [date, time] : record.resumptions) {
-    json["resumptions"].push_back({{"date", date}, {"time", time}});
-  }
+  for (const Resumption& resumption : record.resumptions)
+    json["resumptions"].push_back(resumption_json(resumption));
   json["ranks"] = record.start.ranks;
   json["threads"] = record.start.threads;
   json["cells"] = progress.cells;
@@ -88,8 +120,12 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
                                 {"limit", w.limit},
                                 {"meaning", w.meaning}});
   }
-  json["exit"] = {
-      {"state", exit_state_name(exit.state)}, {"reason", exit.reason}, {"time", progress.simulated_time}};
+  json["files"] = files_json(files);
+  json["exit"] = {{"state", exit_state_name(exit.state)},
+                  {"reason", exit.reason},
+                  {"time", progress.simulated_time},
+                  {"date", iso_date_now()},
+                  {"resume_from", or_null(files.checkpoint)}};
   json["host"] = host_json();
   json["resolved_case"] = scene.resolved;
   // Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
@@ -104,11 +140,14 @@ std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_js
     if (json.is_discarded() || json.at("format") != format_name) return std::nullopt;
     ExistingRun run;
     run.program = json.at("program");
+    run.scene = json.at("scene");
     run.case_hash = json.at("case_hash");
+    run.resolved_case = json.at("resolved_case");
     run.record.start_date = json.at("start_date");
-    for (const auto& entry : json.at("resumptions")) {
-      run.record.resumptions.push_back({entry.at("date"), entry.at("time")});
-    }
+    for (const auto& entry : json.at("resumptions")) run.record.resumptions.push_back(resumption_of(entry));
+    for (const auto& w : json.value("warnings", ordered_json::array()))
+      run.warnings.push_back({w.at("monitor"), w.at("time"), w.at("value"), w.at("limit"), w.at("meaning")});
+    run.has_checkpoint = !json.at("exit").value("resume_from", ordered_json()).is_null();
     return run;
   } catch (const ordered_json::exception&) {
     return std::nullopt;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/output/case_changes.hpp"
+#include "solver/output/series_file.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
@@ -58,6 +60,8 @@ struct RunExit {
 struct Resumption {
   std::string date;   // ISO 8601, UTC
   double time = 0.0;  // simulated time from which the run went on [s]
+  int threads = 1;
+  std::vector<CaseChange> changes;  // of the case, since the part before
 };
 
 struct RunRecord {
@@ -66,15 +70,27 @@ struct RunRecord {
   std::vector<Resumption> resumptions;
 };
 
+// What the run directory holds, for a reader to check what it finds there.
+struct FilesWritten {
+  SeriesFacts series;
+  std::size_t instants = 0;          // of fields.h5
+  std::string fields_sha256;         // of fields.h5 once it is one file; empty until then
+  std::optional<double> checkpoint;  // time of checkpoint.h5 [s]: what the run can go on from
+};
+
 // The text of run.json. Numbers that are not finite become null.
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
-                            const RunExit& exit);
+                            const FilesWritten& files, const RunExit& exit);
 
 // What resuming and overwriting need of an existing run.json; nullopt if the file is not a granvof run.json.
 struct ExistingRun {
   RunRecord record;
   std::string program;
+  std::string scene;
   std::string case_hash;
+  std::string resolved_case;
+  std::vector<Warning> warnings;
+  bool has_checkpoint = false;  // as it says itself
 };
 std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json);
 

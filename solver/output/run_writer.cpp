@@ -1,5 +1,6 @@
 #include "solver/output/run_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -21,8 +22,44 @@ namespace fs = std::filesystem;
 constexpr const char* series_name = "series.csv";
 constexpr const char* record_name = "run.json";
 
-// Everything that a run leaves in its directory, but run.json.
-constexpr std::array owned_names = {"checkpoint.h5", "fields.xdmf", "fields.h5", "fields", series_name};
+// What a run leaves in its directory beside run.json and its fields, and drafts of a run that was killed.
+constexpr std::array owned_names = {"checkpoint.h5", series_name};
+
+void remove_owned(const fs::path& directory) {
+  for (const char* name : owned_names) {
+    for (const fs::path& file : {directory / name, directory / (std::string(name) + ".tmp")}) {
+      std::error_code error;
+      fs::remove(file, error);
+      if (error) throw OutputError("replace", file, error.message());
+    }
+  }
+  FieldsFile::remove(directory);
+}
+
+// Whether there is anything but the draft of a run that was killed in its first moment.
+bool holds_anything(const fs::path& directory) {
+  return std::any_of(fs::directory_iterator(directory), fs::directory_iterator(),
+                     [](const auto& entry) { return entry.path().filename() != "run.json.tmp"; });
+}
+
+// Times of `asked` up to `last` [s].
+std::span<const double> up_to(const std::vector<double>& asked, double last) {
+  return {asked.begin(), std::upper_bound(asked.begin(), asked.end(), last)};
+}
+
+// Why `existing` is another run than that of `scene`; empty if it is not.
+std::string difference(const ExistingRun& existing, const Scene& scene, const RunStart& start) {
+  if (existing.program != start.program) return fmt::format("it is a run of {}", existing.program);
+  if (existing.scene != scene.name)
+    return fmt::format("it is a run of the scene {}, this is {}", existing.scene, scene.name);
+  std::string changed;
+  for (const CaseChange& change : case_changes(existing.resolved_case, scene.resolved))
+    if (!may_change_on_resume(change.key)) changed += (changed.empty() ? "" : "; ") + change_text(change);
+  if (!changed.empty()) return "it is a run of another case: " + changed;
+  if (existing.case_hash != scene.hash)
+    return fmt::format("it is of a case with hash {}, this case has {}", existing.case_hash, scene.hash);
+  return "";
+}
 
 // One program writes into a directory at a time; the lock ends with the program.
 Descriptor lock_directory(const fs::path& directory) {
@@ -47,46 +84,61 @@ std::vector<Column> series_columns(std::span<const Column> monitors) {
   return columns;
 }
 
-RunWriter::RunWriter(fs::path directory, Scene scene, RunStart start, std::span<const Column> monitors,
-                     std::optional<double> resume_time)
+RunWriter::RunWriter(fs::path directory, Scene scene, RunStart start, std::span<const Column> monitors)
     : directory_(std::move(directory)),
       scene_(std::move(scene)),
       record_{std::move(start), iso_date_now(), {}},
-      columns_(series_columns(monitors)),
-      resume_time_(resume_time) {}
+      columns_(series_columns(monitors)) {}
 
 RunWriter RunWriter::fresh(const fs::path& directory, const Scene& scene, const RunStart& start,
-                           std::span<const Column> monitors) {
+                           std::span<const Column> monitors, bool force) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw OutputError("create", directory, error.message());
-  RunWriter writer(directory, scene, start, monitors, std::nullopt);
+  RunWriter writer(directory, scene, start, monitors);
   writer.lock_ = lock_directory(directory);
-  if (!fs::is_empty(directory) && !read_existing_run(directory / record_name)) {
+  const auto existing = read_existing_run(directory / record_name);
+  if (!existing && holds_anything(directory)) {
     throw OutputError("write to", directory,
                       "it holds files but no run of granvof; give an empty or new directory");
+  }
+  if (existing && !force) {
+    if (const std::string other = difference(*existing, scene, start); !other.empty())
+      throw OutputError("write to", directory, other + "; give another directory, or --force to replace it");
   }
   return writer;
 }
 
-RunWriter RunWriter::resume(const fs::path& directory, const Scene& scene, const RunStart& start,
-                            std::span<const Column> monitors, double time) {
-  RunWriter writer(directory, scene, start, monitors, time);
+ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, const RunStart& start,
+                             std::span<const Column> monitors) {
+  RunWriter writer(directory, scene, start, monitors);
   writer.lock_ = lock_directory(directory);
   const auto existing = read_existing_run(directory / record_name);
-  if (!existing) throw OutputError("resume", directory, "it holds no run of granvof");
-  if (existing->program != start.program) {
-    throw OutputError("resume", directory, fmt::format("it is a run of {}", existing->program));
+  const bool saved = fs::exists(writer.checkpoint_path());
+  if (!existing && (saved || holds_anything(directory) || fs::is_empty(directory)))
+    throw OutputError("resume", directory, "it holds no run of granvof");
+  if (!existing) return {std::move(writer), std::nullopt, {}};
+  if (const std::string other = difference(*existing, scene, start); !other.empty()) {
+    throw OutputError("resume", directory, other + "; only time.end and output that is due later may change");
   }
-  if (existing->case_hash != scene.hash) {
-    throw OutputError(
-        "resume", directory,
-        fmt::format("it is of a case with hash {}, this case has {}", existing->case_hash, scene.hash));
+  if (!saved && existing->has_checkpoint)
+    throw OutputError("resume", directory, "its checkpoint.h5 has gone; run it anew without --resume");
+  if (!saved) return {std::move(writer), std::nullopt, {}};
+  Checkpoint checkpoint = read_checkpoint(writer.checkpoint_path(), scene);
+  if (checkpoint.time >= scene.times.end) {
+    throw OutputError("resume", directory,
+                      fmt::format("its checkpoint is of t = {:.9g} s, and the case ends at {:.9g} s",
+                                  checkpoint.time, scene.times.end));
   }
+  SeriesFile::rows_until(directory / series_name, writer.columns_,
+                         up_to(scene.times.row_times, checkpoint.time));
+  FieldsFile::check_instants(directory, up_to(scene.times.field_times, checkpoint.time));
+  writer.resume_time_ = writer.checkpoint_time_ = checkpoint.time;
   writer.record_.start_date = existing->record.start_date;
   writer.record_.resumptions = existing->record.resumptions;
-  writer.record_.resumptions.push_back({iso_date_now(), time});
-  return writer;
+  writer.record_.resumptions.push_back({iso_date_now(), checkpoint.time, start.threads,
+                                        case_changes(existing->resolved_case, scene.resolved)});
+  return {std::move(writer), std::move(checkpoint), existing->warnings};
 }
 
 void RunWriter::start_writing() {
@@ -104,20 +156,18 @@ void RunWriter::start_fresh() {
   const auto record = directory_ / record_name;
   RunProgress nothing;
   nothing.cells = std::int64_t{1} * scene_.grid.cells[0] * scene_.grid.cells[1] * scene_.grid.cells[2];
-  write_beside(record, run_record_text(scene_, record_, nothing, {}));
-  for (const char* name : owned_names) {
-    std::error_code error;
-    fs::remove_all(directory_ / name, error);
-    if (error) throw OutputError("replace", directory_ / name, error.message());
-  }
+  write_beside(record, run_record_text(scene_, record_, nothing, {}, {}));
+  remove_owned(directory_);
   rename_into_place(record);
+  begun_ = true;
   fields_ = FieldsFile::create(directory_, scene_);
   series_ = SeriesFile::create(directory_ / series_name, columns_);
 }
 
 void RunWriter::start_resumed(double time) {
-  fields_ = FieldsFile::resume(directory_, scene_, time);
-  series_ = SeriesFile::resume(directory_ / series_name, columns_, time);
+  begun_ = true;
+  fields_ = FieldsFile::resume(directory_, scene_, up_to(scene_.times.field_times, time));
+  series_ = SeriesFile::resume(directory_ / series_name, columns_, up_to(scene_.times.row_times, time));
 }
 
 void RunWriter::write_series_row(double time, std::span<const Value> monitors, const Scalars& scalars) {
@@ -136,7 +186,9 @@ void RunWriter::write_fields(const CellFields& fields) {
 void RunWriter::write_checkpoint(const CheckpointView& state, const RunProgress& progress) {
   start_writing();
   series_->flush_to_disk();
+  fields_->check_still_there();
   granvof::write_checkpoint(checkpoint_path(), scene_, state);
+  checkpoint_time_ = state.time;
   write_record(progress, {});
 }
 
@@ -148,14 +200,35 @@ void RunWriter::write_progress(const RunProgress& progress) {
 void RunWriter::finish(const RunProgress& progress, const RunExit& exit) {
   start_writing();
   series_->flush_to_disk();
+  fields_->check_still_there();
   // A run that may go on keeps its instants apart; where joining fails the linked form stays, just as
   // readable.
-  if (exit.state == ExitState::finished) fields_->join();
+  if (exit.state == ExitState::finished && fields_->join())
+    fields_sha256_ = digest_of_file(directory_ / "fields.h5");
   write_record(progress, exit);
 }
 
-void RunWriter::write_record(const RunProgress& progress, const RunExit& exit) const {
-  write_file_atomically(directory_ / record_name, run_record_text(scene_, record_, progress, exit));
+void RunWriter::give_up(const RunProgress& progress, const std::string& reason) noexcept {
+  if (!begun_) return;  // nothing of this run is on the disk, and what is there is another's
+  const RunExit exit{ExitState::failed, reason};
+  try {
+    try {
+      write_record(progress, exit);
+    } catch (const OutputError&) {
+      overwrite_file(directory_ / record_name, run_record_text(scene_, record_, progress, files(), exit));
+    }
+  } catch (const std::exception&) {
+    return;  // the caller has said on stderr what is wrong
+  }
+}
+
+FilesWritten RunWriter::files() const {
+  return {series_ ? series_->facts() : SeriesFacts{}, fields_ ? fields_->instants() : 0, fields_sha256_,
+          checkpoint_time_};
+}
+
+void RunWriter::write_record(const RunProgress& progress, const RunExit& exit) {
+  write_file_atomically(directory_ / record_name, run_record_text(scene_, record_, progress, files(), exit));
 }
 
 }  // namespace granvof

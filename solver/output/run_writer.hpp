@@ -21,49 +21,66 @@
 
 namespace granvof {
 
+struct ResumedRun;
+
 class RunWriter {
  public:
   // A run from the beginning. `monitors` are the program's own columns, between time and the scalars of
-  // extract.hpp. Throws OutputError if `directory` cannot be made or written, is in use by another run, or
-  // holds files but no run.
+  // extract.hpp. Throws OutputError if `directory` cannot be made or written, is in use by another run, holds
+  // files but no run, or, without `force`, a run that this one would not give again: of another program,
+  // scene or case but for its end and its output.
   static RunWriter fresh(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
-                         std::span<const Column> monitors);
-  // The run of `directory` continued from a checkpoint of time `time` [s]: later rows and instants are
-  // removed. Throws OutputError also if the directory holds a run of another case or program. A row and an
-  // instant due at the time of a checkpoint must be written before it.
-  static RunWriter resume(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
-                          std::span<const Column> monitors, double time);
+                         std::span<const Column> monitors, bool force = false);
+  // The run of `directory` continued from its checkpoint: later rows and instants are removed; from its
+  // beginning where it was ended before its first checkpoint. Throws OutputError if the directory holds no
+  // run or that of another case or program, if anything of the case has changed but what may
+  // (case_changes.hpp), or if rows or instants up to the checkpoint are not those that the case asks for.
+  static ResumedRun resume(const std::filesystem::path& directory, const Scene& scene, const RunStart& start,
+                           std::span<const Column> monitors);
 
   // A row of series.csv; `monitors` in the order of the columns given at the start.
   void write_series_row(double time, std::span<const Value> monitors, const Scalars& scalars);
   // An instant of fields.h5, fields.xdmf rewritten.
   void write_fields(const CellFields& fields);
-  // series.csv flushed, checkpoint.h5 replaced, run.json brought up to date.
+  // series.csv flushed, checkpoint.h5 replaced, run.json brought up to date. Rows and instants due up to the
+  // time of the state must have been written.
   void write_checkpoint(const CheckpointView& state, const RunProgress& progress);
-  // run.json alone, state "running". A fresh run's first write makes it by itself; a resumed run calls this
-  // first.
+  // run.json alone, state "running": the first call of a run that goes on or begins.
   void write_progress(const RunProgress& progress);
   // The last call: fields.h5 joined if the run finished, run.json with its exit state.
   void finish(const RunProgress& progress, const RunExit& exit);
+  // Instead of finish() where that or another call has thrown: run.json says why, if it can be written at
+  // all.
+  void give_up(const RunProgress& progress, const std::string& reason) noexcept;
 
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
+  // Time of the checkpoint on the disk [s]; none yet, none.
+  std::optional<double> checkpoint_time() const { return checkpoint_time_; }
 
  private:
-  RunWriter(std::filesystem::path directory, Scene scene, RunStart start, std::span<const Column> monitors,
-            std::optional<double> resume_time);
+  RunWriter(std::filesystem::path directory, Scene scene, RunStart start, std::span<const Column> monitors);
   void start_writing();
   void start_fresh();
   void start_resumed(double time);
-  void write_record(const RunProgress& progress, const RunExit& exit) const;
+  void write_record(const RunProgress& progress, const RunExit& exit);
+  FilesWritten files() const;
 
   std::filesystem::path directory_;
   Scene scene_;
   RunRecord record_;
   std::vector<Column> columns_;
-  std::optional<double> resume_time_;
+  std::optional<double> resume_time_, checkpoint_time_;
+  std::string fields_sha256_;
+  bool begun_ = false;  // run.json is that of this run
   Descriptor lock_;
   std::optional<SeriesFile> series_;
   std::optional<FieldsFile> fields_;
+};
+
+struct ResumedRun {
+  RunWriter writer;
+  std::optional<Checkpoint> checkpoint;  // none: the run begins anew
+  std::vector<Warning> warnings;         // that the earlier parts raised
 };
 
 // All columns of a series.csv: time, the program's monitors, the scalars.

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "solver/output/output_error.hpp"
@@ -66,20 +67,22 @@ std::string column_header(const Column& column) {
   return column.name + " [" + column.unit + "]";
 }
 
-SeriesFile::SeriesFile(std::filesystem::path path, std::size_t columns)
-    : path_(std::move(path)),
-      columns_(columns),
-      file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)) {
+SeriesFile::SeriesFile(std::filesystem::path path, std::span<const Column> columns)
+    : path_(std::move(path)), file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)) {
   if (!file_.valid()) throw OutputError("write", path_, std::generic_category().message(errno));
+  for (const Column& column : columns) columns_.push_back(column_header(column));
 }
 
 SeriesFile SeriesFile::create(const std::filesystem::path& path, std::span<const Column> columns) {
-  write_file_atomically(path, header_line(columns));
-  return {path, columns.size()};
+  const std::string header = header_line(columns);
+  write_file_atomically(path, header);
+  SeriesFile file(path, columns);
+  file.count(header);
+  return file;
 }
 
-SeriesFile SeriesFile::resume(const std::filesystem::path& path, std::span<const Column> columns,
-                              double last_time) {
+std::string SeriesFile::rows_until(const std::filesystem::path& path, std::span<const Column> columns,
+                                   std::span<const double> times) {
   const std::string header = header_line(columns);
   const std::string text = read_file(path);
   if (!text.starts_with(header)) {
@@ -87,19 +90,50 @@ SeriesFile SeriesFile::resume(const std::filesystem::path& path, std::span<const
                       "its columns are not those of this program; it was written by another version");
   }
   std::string kept = header;
-  for (const auto line : complete_lines(std::string_view(text).substr(header.size()))) {
-    const auto time = parse_number(split(line).front());
-    if (!time) throw OutputError("resume", path, fmt::format("row without a time: '{}'", line));
-    if (*time > last_time) break;
-    kept.append(line).append("\n");
+  const auto lines = complete_lines(std::string_view(text).substr(header.size()));
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    const auto time = row < lines.size() ? parse_number(split(lines[row]).front()) : std::nullopt;
+    if (time != times[row]) {
+      throw OutputError(
+          "resume", path,
+          fmt::format("row {} should be of t = {} s, the case asks for it before the checkpoint, and {}",
+                      row + 1, times[row], time ? fmt::format("is of {} s", *time) : "is not there"));
+    }
+    kept.append(lines[row]).append("\n");
   }
+  return kept;
+}
+
+SeriesFile SeriesFile::resume(const std::filesystem::path& path, std::span<const Column> columns,
+                              std::span<const double> times) {
+  const std::string kept = rows_until(path, columns, times);
   write_file_atomically(path, kept);
-  return {path, columns.size()};
+  SeriesFile file(path, columns);
+  file.count(kept);
+  file.rows_ = static_cast<std::int64_t>(times.size());
+  if (!times.empty()) file.end_ = times.back();
+  return file;
+}
+
+void SeriesFile::count(std::string_view text) {
+  digest_.add(text);
+  bytes_ += text.size();
+}
+
+void SeriesFile::check_still_there() const {
+  struct stat ours {
+  }, theirs{};
+  const bool known = ::fstat(file_.get(), &ours) == 0 && ::stat(path_.c_str(), &theirs) == 0;
+  if (!known || ours.st_dev != theirs.st_dev || ours.st_ino != theirs.st_ino)
+    throw OutputError("write", path_, "it was removed or replaced while the run went on");
+  if (static_cast<std::uintmax_t>(ours.st_size) != bytes_)
+    throw OutputError("write", path_, "somebody else wrote to it while the run went on");
 }
 
 void SeriesFile::append(std::span<const Value> row) {
-  if (row.size() != columns_) {
-    throw std::invalid_argument(fmt::format("a row of {} values for {} columns", row.size(), columns_));
+  if (row.size() != columns_.size()) {
+    throw std::invalid_argument(
+        fmt::format("a row of {} values for {} columns", row.size(), columns_.size()));
   }
   std::string line;
   for (std::size_t c = 0; c < row.size(); ++c) {
@@ -107,24 +141,32 @@ void SeriesFile::append(std::span<const Value> row) {
     if (!row[c]) continue;
     if (!std::isfinite(*row[c])) {
       throw std::invalid_argument(
-          fmt::format("column {} of a row of {} is {}", c + 1, path_.string(), *row[c]));
+          fmt::format("{} of a row of {} is {}", columns_[c], path_.string(), *row[c]));
     }
     fmt::format_to(std::back_inserter(line), "{}",
                    *row[c]);  // shortest text that reads back as the same number
   }
   line += '\n';
-  const off_t before = ::lseek(file_.get(), 0, SEEK_END);
+  check_still_there();
   try {
     write_all(file_, line, path_);
   } catch (const OutputError&) {
     // The row may be half there; if cutting fails too, readers still drop a line without an end.
-    [[maybe_unused]] const int cut = ::ftruncate(file_.get(), before);
+    [[maybe_unused]] const int cut = ::ftruncate(file_.get(), static_cast<off_t>(bytes_));
     throw;
   }
+  count(line);
+  ++rows_;
+  end_ = row.front();
 }
 
 void SeriesFile::flush_to_disk() {
+  check_still_there();
   sync(file_, path_);
+}
+
+SeriesFacts SeriesFile::facts() const {
+  return {rows_, end_, columns_, digest_.hex()};
 }
 
 bool Series::has(std::string_view name) const {

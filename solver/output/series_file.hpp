@@ -1,6 +1,7 @@
 // series.csv: one row per output time, "name [unit]" as header, an empty field where a value is undefined.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/digest.hpp"
 
 namespace granvof {
 
@@ -24,27 +26,48 @@ using Value = std::optional<double>;
 // The header field of a column: "name [unit]".
 std::string column_header(const Column& column);
 
-// Appends rows; a row is written in one piece, and what a failed write left behind is cut off again.
+// What a series.csv holds, for run.json.
+struct SeriesFacts {
+  std::int64_t rows = 0;
+  std::optional<double> end;         // time of the last row [s]
+  std::vector<std::string> columns;  // as in the header: "name [unit]"
+  std::string sha256;                // of the whole file
+};
+
+// Appends rows; a row is written in one piece, and what a failed write left behind is cut off again. Throws
+// OutputError as soon as the file is not what was written: removed, replaced or cut by somebody else.
 class SeriesFile {
  public:
   // Starts an empty file with its header. Throws OutputError.
   static SeriesFile create(const std::filesystem::path& path, std::span<const Column> columns);
-  // Goes on with an existing file: rows later than `last_time` [s] and a torn last row are removed.
-  // Throws OutputError if the file cannot be read or its header is another.
+  // Goes on with an existing file behind its rows of `times` [s], ascending; later rows and a torn last one
+  // are removed. Throws OutputError if the file cannot be read, its header is another, or its first rows are
+  // not of these times.
   static SeriesFile resume(const std::filesystem::path& path, std::span<const Column> columns,
-                           double last_time);
+                           std::span<const double> times);
 
-  // One value per column; throws std::invalid_argument for a wrong count, NaN or infinity, OutputError if not
-  // written.
+  // What resume() would keep of the file, without touching it. Throws as that does.
+  static std::string rows_until(const std::filesystem::path& path, std::span<const Column> columns,
+                                std::span<const double> times);
+
+  // One value per column, the first one the time; throws std::invalid_argument for a wrong count, NaN or
+  // infinity, OutputError if not written.
   void append(std::span<const Value> row);
   void flush_to_disk();
+  SeriesFacts facts() const;
 
  private:
-  SeriesFile(std::filesystem::path path, std::size_t columns);
+  SeriesFile(std::filesystem::path path, std::span<const Column> columns);
+  void count(std::string_view text);  // as written
+  void check_still_there() const;
 
   std::filesystem::path path_;
-  std::size_t columns_ = 0;
+  std::vector<std::string> columns_;
   Descriptor file_;
+  Digest digest_;
+  std::uintmax_t bytes_ = 0;
+  std::int64_t rows_ = 0;
+  std::optional<double> end_;
 };
 
 // A whole series.csv in memory.

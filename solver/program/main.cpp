@@ -7,7 +7,10 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "solver/output/build_info.hpp"
@@ -92,7 +95,10 @@ int parse_and_run(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(1, most_threads))
       ->type_name("N");
-  run_command.add_flag("--resume", arguments.run.resume, "Go on from the run directory's checkpoint");
+  CLI::Option* resume =
+      run_command.add_flag("--resume", arguments.run.resume, "Go on from the run directory's checkpoint");
+  run_command.add_flag("--force", arguments.run.force, "Replace a run of another case in the run directory")
+      ->excludes(resume);
   CLI::App& check_command =
       *app.add_subcommand("check", "Check a case and print it in full, defaults filled in");
   add_case(check_command, arguments);
@@ -110,9 +116,28 @@ int parse_and_run(int argc, char** argv) {
   return run(arguments);
 }
 
+// Messages are stderr's: stdout holds what was asked for.
+void send_messages_to_stderr() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("granvof"));
+}
+
+// A standard stream that the caller has closed must not be the number that the next file opened gets:
+// messages would go into a result.
+void keep_standard_streams_taken() {
+  while (true) {
+    const int fd = ::open("/dev/null", O_RDWR);
+    if (fd > STDERR_FILENO || fd < 0) {
+      ::close(fd);
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams_taken();
+  send_messages_to_stderr();
   try {
     const int code = parse_and_run(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)  // what nobody could read was not said

@@ -30,6 +30,8 @@ class Alarms {
   std::string check(const State& s, const Monitors& monitors, const StepCounts& counts);
 
   const std::vector<Warning>& raised() const { return raised_; }
+  // Those of the earlier parts of a resumed run.
+  void restore(std::vector<Warning> raised) { raised_ = std::move(raised); }
 
  private:
   // value must not exceed limit

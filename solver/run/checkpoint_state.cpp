@@ -44,10 +44,8 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
   view.time = s.time;
   for_each_field(grid, s, [&](const std::string& name, const Field& f) { view.arrays[name] = f.span(); });
   for_each_counter(counters, [&](const char* name, std::int64_t value) { view.counters[name] = value; });
-  view.counters["next_field"] = static_cast<std::int64_t>(counters.next_field);
   const Monitors::Values v = monitors.values();
   view.scalars = {{"last_dt", control.last()},
-                  {"next_row", counters.next_row},
                   {"wall_seconds", progress.wall_seconds},
                   {"core_seconds", progress.core_seconds},
                   {"solid_volume", v.solid_volume},
@@ -70,8 +68,6 @@ void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& c
   });
   for (const EnergyTerm& term : energy_terms) s.energy.*term.value = saved.scalar(term.name);
   for_each_counter(counters, [&](const char* name, std::int64_t& value) { value = saved.counter(name); });
-  counters.next_field = static_cast<std::size_t>(saved.counter("next_field"));
-  counters.next_row = saved.scalar("next_row");
   counters.wall_seconds = saved.scalar("wall_seconds");
   counters.core_seconds = saved.scalar("core_seconds");
   control.restore(saved.scalar("last_dt"));

@@ -13,8 +13,6 @@ namespace granvof {
 // Counts and marks of a run that are no part of the physical state.
 struct RunCounters {
   std::int64_t steps = 0, refused_steps = 0, newton = 0, linear = 0, friction = 0, unconverged_friction = 0;
-  std::size_t next_field = 0;                     // index into Times::field_times
-  double next_row = 0.0;                          // time of the next row of series.csv [s]
   double wall_seconds = 0.0, core_seconds = 0.0;  // of earlier parts of a resumed run
 };
 

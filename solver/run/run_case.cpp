@@ -1,8 +1,8 @@
 #include "solver/run/run_case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <ctime>
 
@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "solver/output/output_error.hpp"
+#include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/checkpoint_state.hpp"
@@ -22,10 +23,36 @@
 namespace granvof {
 namespace {
 
-// Set by SIGINT and SIGTERM; the one thing a signal handler may do.
+// The signal that asked for the end; setting it is the one thing a signal handler may do.
 volatile std::sig_atomic_t stop_requested = 0;
-void request_stop(int) {
-  stop_requested = 1;
+void request_stop(int signal) {
+  stop_requested = signal;
+}
+
+struct NamedSignal {
+  int number;
+  const char* name;
+};
+// What ends a run with a checkpoint: from a terminal, a shell, a scheduler before it kills, or a reader of
+// our messages that has gone.
+constexpr std::array stopping_signals{NamedSignal{SIGINT, "SIGINT"},   NamedSignal{SIGTERM, "SIGTERM"},
+                                      NamedSignal{SIGHUP, "SIGHUP"},   NamedSignal{SIGUSR1, "SIGUSR1"},
+                                      NamedSignal{SIGXCPU, "SIGXCPU"}, NamedSignal{SIGPIPE, "SIGPIPE"}};
+
+// One that the caller had ignored (nohup, a shell's background) stays ignored, but a broken pipe: that is how
+// the run learns of it. A file that may not grow (SIGXFSZ) shows as a failed write.
+void listen_to_signals() {
+  stop_requested = 0;
+  for (const NamedSignal& signal : stopping_signals)
+    if (std::signal(signal.number, request_stop) == SIG_IGN && signal.number != SIGPIPE)
+      std::signal(signal.number, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+std::string name_of_signal(int number) {
+  const auto* found = std::find_if(stopping_signals.begin(), stopping_signals.end(),
+                                   [=](const NamedSignal& s) { return s.number == number; });
+  return found == stopping_signals.end() ? std::to_string(number) : found->name;
 }
 
 double core_seconds() {
@@ -69,10 +96,14 @@ class Run {
   RunWriter open_writer();
   int loop();
   bool advance();  // one accepted step; false if the run cannot go on, see trouble_
-  void write_due_output(bool force);
+  // Rows and fields between that state and the present one.
+  void write_output(const State& earlier, const std::vector<DueOutput>& due_now);
+  void step_back();  // to the state before the last step
   void checkpoint();
   RunProgress progress() const;
   int finish(ExitState state, const std::string& reason);
+  int give_up(const std::string& reason);
+  std::string what_is_left() const;
 
   const Scene& scene_;
   const RunOptions& options_;
@@ -81,13 +112,19 @@ class Run {
   Boundary boundary_;
   TimeStep step_;
   StepControl control_;
-  State now_, next_;
+  State now_, next_;  // after a step next_ holds the state before it
   Monitors monitors_;
   EnergyTerms start_energy_;  // of the scene's start, whatever it is resumed from
   Alarms alarms_;
   RunCounters counters_;
+  struct Marks {
+    RunCounters counters;
+    Monitors::Values monitors{};
+    double dt = 0.0;
+  } before_;  // those of the state before the last step
   StepReport last_;
   std::string trouble_;
+  bool begins_ = true;  // not resumed
   RunWriter writer_;
   ProgressLine progress_line_;
   double started_core_ = core_seconds();
@@ -97,20 +134,23 @@ class Run {
 
 RunWriter Run::open_writer() {
   const RunStart start{"granvof", options_.command, 1, options_.threads};
-  if (!options_.resume) return RunWriter::fresh(options_.out, scene_, start, monitor_columns());
-  const Checkpoint saved = read_checkpoint(options_.out / "checkpoint.h5", scene_);
-  restore(saved, grid_, now_, control_, monitors_, counters_);
+  if (!options_.resume)
+    return RunWriter::fresh(options_.out, scene_, start, monitor_columns(), options_.force);
+  ResumedRun resumed = RunWriter::resume(options_.out, scene_, start, monitor_columns());
+  if (!resumed.checkpoint) {
+    spdlog::warn("{}: {} has no checkpoint, the run begins anew", scene_.name, options_.out.string());
+    return std::move(resumed.writer);
+  }
+  begins_ = false;
+  restore(*resumed.checkpoint, grid_, now_, control_, monitors_, counters_);
   now_.fill_ghosts(boundary_);
-  return RunWriter::resume(options_.out, scene_, start, monitor_columns(), saved.time);
+  alarms_.restore(std::move(resumed.warnings));
+  return std::move(resumed.writer);
 }
 
 bool Run::advance() {
+  before_ = {counters_, monitors_.values(), control_.last()};
   double dt = control_.next(now_);
-  // Meet the next field time exactly, without a tiny last step.
-  if (counters_.next_field < scene_.times.field_times.size()) {
-    const double left = scene_.times.field_times[counters_.next_field] - now_.time;
-    if (left > 0.0) dt = left / std::ceil(left / dt * (1.0 - 1e-9));
-  }
   for (;;) {
     last_ = step_.advance(now_, dt, next_);
     if (last_.accepted) {
@@ -134,30 +174,33 @@ bool Run::advance() {
   counters_.friction += last_.friction.iterations;
   counters_.unconverged_friction += last_.friction.converged ? 0 : 1;
   ++counters_.steps;
-  trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
-  return trouble_.empty();
+  return true;
 }
 
-void Run::write_due_output(bool force) {
-  const Times& times = scene_.times;
-  if (now_.time < -1e-12) return;  // the column is still held
-  const bool field_due = counters_.next_field < times.field_times.size() &&
-                         now_.time >= times.field_times[counters_.next_field] - 1e-9 * times.end;
-  const bool row_due = force || field_due || now_.time >= counters_.next_row - 1e-9 * times.end;
-  if (!row_due) return;
-  const CellFields fields = cell_fields(grid_, now_);
-  std::vector<Value> row{control_.last(),
-                         static_cast<double>(last_.pressure.newton),
-                         static_cast<double>(last_.pressure.linear),
-                         static_cast<double>(last_.friction.iterations),
-                         monitors_.solid_volume_error(),
-                         monitors_.liquid_volume_error()};
-  for (const EnergyTerm& term : energy_terms) row.emplace_back(now_.energy.*term.value);
-  writer_.write_series_row(now_.time, row, extract_scalars(fields, scene_));
-  while (counters_.next_row <= now_.time + 1e-9 * times.end) counters_.next_row += times.series_interval;
-  if (field_due) {
-    writer_.write_fields(fields);
-    ++counters_.next_field;
+void Run::step_back() {
+  std::swap(now_, next_);
+  counters_ = before_.counters;
+  monitors_.restore(before_.monitors);
+  control_.restore(before_.dt);
+}
+
+// The flow knows nothing of its output: no step is cut for it. What falls into a step is interpolated between
+// the two states; monitors are those of that step.
+void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_now) {
+  for (const DueOutput& due : due_now) {
+    const CellFields fields = cell_fields(grid_, earlier, now_, due.time);
+    if (due.row) {
+      std::vector<Value> row{control_.last(),
+                             static_cast<double>(last_.pressure.newton),
+                             static_cast<double>(last_.pressure.linear),
+                             static_cast<double>(last_.friction.iterations),
+                             monitors_.solid_volume_error(),
+                             monitors_.liquid_volume_error()};
+      const EnergyTerms energy = energy_terms_at(earlier, now_, due.time);
+      for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
+      writer_.write_series_row(due.time, row, extract_scalars(fields, scene_));
+    }
+    if (due.fields) writer_.write_fields(fields);
   }
 }
 
@@ -166,7 +209,7 @@ RunProgress Run::progress() const {
   p.steps = counters_.steps;
   p.refused_steps = counters_.refused_steps;
   p.cells = static_cast<std::int64_t>(grid_.cells.count());
-  p.simulated_time = now_.time;
+  p.simulated_time = std::min(now_.time, scene_.times.end);
   p.wall_seconds = counters_.wall_seconds +
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   p.core_seconds = counters_.core_seconds + core_seconds() - started_core_;
@@ -194,51 +237,63 @@ void Run::checkpoint() {
 
 int Run::finish(ExitState state, const std::string& reason) {
   progress_line_.clear();
-  checkpoint();  // of a finished run too: a longer one goes on from it
-  if (state != ExitState::finished) {
-    spdlog::error("{}: {}; last good state at t = {:.6g} s is in {}", scene_.name, reason, now_.time,
-                  writer_.checkpoint_path().string());
-  }
-  writer_.finish(progress(), {state, reason});
+  const RunProgress done = progress();
+  // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no end.
+  if (state == ExitState::finished) step_back();
+  writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, done), done);
+  if (state != ExitState::finished) spdlog::error("{}: {}; {}", scene_.name, reason, what_is_left());
+  writer_.finish(done, {state, reason});
   return state == ExitState::finished ? 0 : 1;
+}
+
+std::string Run::what_is_left() const {
+  const auto saved = writer_.checkpoint_time();
+  return saved ? fmt::format("--resume goes on from t = {:.6g} s, {}", *saved,
+                             writer_.checkpoint_path().string())
+               : "there is no checkpoint to go on from";
+}
+
+int Run::give_up(const std::string& reason) {
+  progress_line_.clear();
+  const std::string at = fmt::format("stopped at t = {:.6g} s: {}", now_.time, reason);
+  spdlog::error("{}: {}; {}", scene_.name, at, what_is_left());
+  writer_.give_up(progress(), at);
+  return 1;
 }
 
 int Run::go() {
   try {
-    if (options_.resume)
-      writer_.write_progress(progress());  // run.json must not show the old end while this goes on
-    else
-      write_due_output(false);
+    writer_.write_progress(progress());  // run.json must not show an old end while this goes on
+    if (begins_) write_output(now_, due_output(scene_.times, -1.0, now_.time));
     return loop();
   } catch (const OutputError& error) {
-    progress_line_.clear();
-    spdlog::error(
-        "{}: stopped at t = {:.6g} s, its output cannot be written: {}; the last checkpoint stays in {}",
-        scene_.name, now_.time, error.what(), writer_.checkpoint_path().string());
-    return 1;
+    return give_up(fmt::format("its output cannot be written: {}", error.what()));
+  } catch (const std::exception& error) {
+    return give_up(error.what());
   }
 }
 
 int Run::loop() {
-  while (now_.time < scene_.times.end * (1.0 - 1e-12)) {
-    if (stop_requested) return finish(ExitState::stopped, "stopped by a signal");
+  for (;;) {
+    if (stop_requested)
+      return finish(ExitState::stopped, "stopped by a signal (" + name_of_signal(stop_requested) + ")");
     if (!advance()) return finish(ExitState::failed, trouble_);
-    write_due_output(now_.time >= scene_.times.end * (1.0 - 1e-12));
+    write_output(next_, due_output(scene_.times, next_.time, now_.time));
+    trouble_ = alarms_.check(now_, monitors_, {counters_.steps, counters_.unconverged_friction});
+    if (!trouble_.empty()) return finish(ExitState::failed, trouble_);
+    if (now_.time >= scene_.times.end) return finish(ExitState::finished, {});
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint_;
     if (scene_.times.checkpoint_interval > 0.0 && since.count() >= scene_.times.checkpoint_interval)
       checkpoint();
     progress_line_.show(progress(), control_.last(), last_.pressure.newton, last_.pressure.linear);
   }
-  return finish(ExitState::finished, {});
 }
 
 }  // namespace
 
 int run_case(const Scene& scene, const RunOptions& options) {
   omp_set_num_threads(std::max(1, options.threads));
-  stop_requested = 0;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  listen_to_signals();
   return Run(scene, options).go();
 }
 

@@ -1,5 +1,7 @@
 #include "solver/run/snapshot.hpp"
 
+#include <cmath>
+
 namespace granvof {
 namespace {
 
@@ -15,26 +17,66 @@ std::vector<double> collect(const Grid& grid, Value&& value) {
   return out;
 }
 
+// std::lerp is exact at both ends and never leaves the interval between its values by rounding.
+double share_of_later(const State& earlier, const State& later, double time) {
+  return (time - earlier.time) / (later.time - earlier.time);
+}
+
+// Share of the later value in a mean that is weighted by how much of the carrier there is, too.
+double carried_share(double share, double earlier, double later) {
+  const double sum = std::lerp(earlier, later, share);
+  return sum > 0.0 ? share * later / sum : share;
+}
+
 }  // namespace
 
 CellFields cell_fields(const Grid& grid, const State& s) {
+  return cell_fields(grid, s, s, s.time);
+}
+
+CellFields cell_fields(const Grid& grid, const State& earlier, const State& later, double time) {
+  const State &a = earlier, &b = later;
+  const double share = time == b.time ? 1.0 : share_of_later(a, b, time);
   CellFields out;
-  out.time = s.time;
+  out.time = time;
   out.cells = grid.cells.n;
   out.spacing = grid.h;
-  const auto cells = [&](const Field& f) { return collect(grid, [&](std::ptrdiff_t c) { return f[c]; }); };
-  out.f_s = cells(s.f_s);
-  out.alpha = cells(s.alpha);
-  out.p_c = cells(s.p_c);
-  out.p_s = cells(s.p_s);
-  out.theta = cells(s.theta);
-  out.phi = cells(s.phi);
+  const auto cells = [&](const Field& x, const Field& y) {
+    return collect(grid, [&](std::ptrdiff_t c) { return std::lerp(x[c], y[c], share); });
+  };
+  const auto of_grains = [&](const Field& x, const Field& y) {
+    return collect(grid, [&](std::ptrdiff_t c) {
+      return std::lerp(x[c], y[c], carried_share(share, a.f_s[c], b.f_s[c]));
+    });
+  };
+  out.f_s = cells(a.f_s, b.f_s);
+  out.alpha = collect(grid, [&](std::ptrdiff_t c) {
+    return std::lerp(a.alpha[c], b.alpha[c], carried_share(share, 1.0 - a.f_s[c], 1.0 - b.f_s[c]));
+  });
+  out.p_c = cells(a.p_c, b.p_c);
+  out.p_s = cells(a.p_s, b.p_s);
+  out.theta = of_grains(a.theta, b.theta);
+  out.phi = of_grains(a.phi, b.phi);
   for (int d = 0; d < grid.dim; ++d) {
     const std::ptrdiff_t stride = grid.stride(d);
-    out.u_s[d] = collect(grid, [&](std::ptrdiff_t c) { return 0.5 * (s.u_s[d][c] + s.u_s[d][c + stride]); });
-    out.u_c[d] = collect(grid, [&](std::ptrdiff_t c) { return 0.5 * (s.u_c[d][c] + s.u_c[d][c + stride]); });
+    const auto centres = [&](const Field& x, const Field& y) {
+      return collect(grid, [&](std::ptrdiff_t c) {
+        return std::lerp(0.5 * (x[c] + x[c + stride]), 0.5 * (y[c] + y[c + stride]), share);
+      });
+    };
+    out.u_s[d] = centres(a.u_s[d], b.u_s[d]);
+    out.u_c[d] = centres(a.u_c[d], b.u_c[d]);
   }
   return out;
+}
+
+EnergyTerms energy_terms_at(const State& earlier, const State& later, double time) {
+  if (time == later.time) return later.energy;
+  const double share = share_of_later(earlier, later, time);
+  EnergyTerms at;
+  for (const EnergyTerm& term : energy_terms)
+    at.*term.value = std::lerp(earlier.energy.*term.value, later.energy.*term.value, share);
+  return at;
 }
 
 }  // namespace granvof

@@ -53,7 +53,7 @@ double StepControl::next(const State& s) const {
   if (scene_.gate) {
     const double risen = scene_.tank[1] / scene_.gate->speed;
     if (s.time < 0.0) {
-      dt = std::min(dt, std::max(-s.time, scene_.numerics.dt_min));  // meet the release exactly
+      dt = -s.time / std::ceil(-s.time / dt * (1.0 - 1e-9));  // meet the release, without a tiny last step
     } else if (s.time < risen) {
       dt = std::min(dt, rows_of_the_gate_in_a_step * grid_.h[1] / scene_.gate->speed);
     }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/scene/case_error.hpp"
+#include "solver/scene/regular_times.hpp"
 #include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
@@ -296,7 +297,8 @@ class Completion {
     }
     s_.times.end = t.end * s_.times.unit;
     s_.times.hold = t.hold;
-    s_.times.series_interval = *t.series_interval * s_.times.unit;
+    for (const double time : regular_times(*t.series_interval, t.end))
+      s_.times.row_times.push_back(time * s_.times.unit);
     s_.times.checkpoint_interval = t.checkpoint_interval;
   }
 
@@ -316,10 +318,7 @@ class Completion {
         refuse("output.field_interval", fmt::format("a number in [{:.9g}, {:.9g}], time.end / {} to time.end",
                                                     t.end / most_field_times, t.end, most_field_times));
       }
-      t.field_times.clear();
-      for (int i = 0; i * *t.field_interval < t.end * (1.0 - roundoff); ++i) {
-        t.field_times.push_back(i * *t.field_interval);
-      }
+      t.field_times = regular_times(*t.field_interval, t.end);
     } else if (listed < 0) {
       t.field_times = {0.0};
     } else {

@@ -198,7 +198,7 @@ struct Times {
   double end = 0.0;                 // [s]
   double unit = 1.0;                // seconds per unit of the case file's times: 1, or sqrt(h0 / g)
   double hold = 0.0;                // time behind the closed gate before t = 0 [s], >= 0
-  double series_interval = 0.0;     // [s], > 0
+  std::vector<double> row_times;    // of series.csv [s], ascending, 0 and the end included
   std::vector<double> field_times;  // [s], ascending, the end included
   double checkpoint_interval =
       0.0;  // wall-clock seconds between checkpoints; 0: only at the end and on failure

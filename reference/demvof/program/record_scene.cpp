@@ -13,6 +13,7 @@
 #include "reference/demvof/program/scene_setup.hpp"
 #include "reference/demvof/program/snapshot.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
 
 namespace demvof {
@@ -134,8 +135,8 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
   const std::string scratch = options.scratch.string();
   ProgressLine line(options.progress, scene.name);
 
-  granvof::RunWriter writer =
-      granvof::RunWriter::fresh(options.out, gridded, {"demvof", options.command, 1, 1}, monitor_columns());
+  granvof::RunWriter writer = granvof::RunWriter::fresh(
+      options.out, gridded, {"demvof", options.command, 1, 1}, monitor_columns(), options.force);
 
   line.say("preparing the column");
   const std::vector<double> floor = floor_beads(scene, options.seed);
@@ -199,24 +200,14 @@ int record_scene(const Scene& scene, const RecordOptions& options) {
     progress.monitors["released_excess_base_pressure_Pa"] = excess_base_pressure(run, gridded);
     gate.release();
 
-    std::size_t field = 0;
-    double next_row = 0.0;
-    long row = 0;
-    while (true) {
-      const double next_field = field < scene.times.field_times.size() ? scene.times.field_times[field] : 2e9;
-      const double target = std::min({next_row, next_field, scene.times.end});
-      advance_to(target);
-      if (next_row <= target) {
-        recording.row(next_row);
-        next_row = static_cast<double>(++row) * scene.times.series_interval;
+    for (const granvof::DueOutput& due : granvof::due_output(scene.times, -1.0, scene.times.end)) {
+      advance_to(due.time);
+      if (due.row) {
+        recording.row(due.time);
         bring_up_to_date();
         writer.write_progress(progress);
       }
-      if (next_field <= target) {
-        recording.fields(next_field);
-        ++field;
-      }
-      if (target >= scene.times.end) break;
+      if (due.fields) recording.fields(due.time);
     }
     bring_up_to_date();
     writer.finish(progress, {granvof::ExitState::finished, ""});

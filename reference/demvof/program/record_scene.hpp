@@ -15,6 +15,7 @@ struct RecordOptions {
   bool gate_closed = false;  // control run: the gate stays where it is
   std::string command;       // for the record
   bool progress = false;     // a line on stderr
+  bool force = false;        // replace a run of another case in the run directory
 };
 
 // Returns the program's exit code: 0 done, 1 failed (run.json says when and why).

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "solver/output/extract_bed.hpp"
@@ -51,12 +53,50 @@ TEST(CentreOfTheDenseBed, TakesNoCellAtTheThreshold) {
   EXPECT_FALSE(y_c(fields, scene));
 }
 
-TEST(BedEdges, AreInterpolatedInTheProfileOverTheOriginalColumns) {
+// Fills the rows of the bed's columns with what a sharp bed from `bottom` to `top` [m] leaves in each.
+void fill_sharp(CellFields& fields, double bottom, double top, double packing, double around = 0.0) {
+  const double h = fields.spacing[1];
+  for (int j = 0; j < fields.cells[1]; ++j) {
+    const double share = std::clamp(std::min(top, (j + 1) * h) - std::max(bottom, j * h), 0.0, h) / h;
+    fill(fields, fields.f_s, {0, fields.cells[0]}, {j, j + 1}, around + share * (packing - around));
+  }
+}
+
+TEST(BedEdges, AreWhereASharpBedEndsWhereverItCutsACell) {
+  auto scene = small_scene();  // five rows of 0.02 m
+  scene.bed = bed_of({0.0, 0.0, 0.0}, {0.4, 0.1, 0.1});
+  auto fields = empty_fields(scene);
+  for (const double packing : {threshold + 1e-9, 0.57, 0.61})
+    for (const double top : {0.06, 0.0605, 0.066, 0.07, 0.075, 0.0788, 0.0795}) {
+      fill_sharp(fields, 0.0, top, packing);
+      EXPECT_NEAR(*bed_top(fields, scene), top, 1e-12) << packing;
+      EXPECT_EQ(*bed_bottom(fields, scene), 0.0);
+      fill_sharp(fields, 0.1 - top, 0.1, packing);  // turned over, as under a lid
+      EXPECT_NEAR(*bed_bottom(fields, scene), 0.1 - top, 1e-12) << packing;
+      EXPECT_DOUBLE_EQ(*bed_top(fields, scene), 0.1);
+      if (top > 0.077) continue;  // in the row below the ceiling nothing tells a suspension from a bed
+      fill_sharp(fields, 0.0, top, 0.6, 0.2);
+      EXPECT_NEAR(*bed_top(fields, scene), top, 1e-12) << packing;
+    }
+}
+
+TEST(BedEdges, MoveWithoutAJumpAsARowFills) {
+  auto scene = small_scene();
+  scene.bed = bed_of({0.0, 0.0, 0.0}, {0.4, 0.1, 0.1});
+  auto fields = empty_fields(scene);
+  double last = 0.04;
+  for (double top = 0.0401; top < 0.0799; top += 1e-4) {
+    fill_sharp(fields, 0.0, top, 0.57);
+    EXPECT_NEAR(*bed_top(fields, scene) - last, 1e-4, 1e-9) << top;
+    last = *bed_top(fields, scene);
+  }
+}
+
+TEST(BedEdges, AreThoseOfTheProfileOverTheOriginalColumns) {
   auto scene = small_scene();
   scene.bed = bed_of({0.1, 0.02, 0.0}, {0.3, 0.08, 0.1});
   auto fields = empty_fields(scene);
-  fill(fields, fields.f_s, {2, 6}, {2, 4},
-       2.0 * threshold);  // edges half a cell outside the centres: on the faces
+  fill(fields, fields.f_s, {2, 6}, {2, 4}, 0.6);
   EXPECT_NEAR(*bed_bottom(fields, scene), 0.04, 1e-14);
   EXPECT_NEAR(*bed_top(fields, scene), 0.08, 1e-14);
   EXPECT_NEAR(*bed_height(fields, scene), 0.04, 1e-14);
@@ -135,7 +175,9 @@ TEST(LargestTemperature, LeavesOutCellsWithoutGrains) {
   auto fields = empty_fields(scene);
   fields.theta[0] = 5.0;
   EXPECT_FALSE(theta_max(fields, scene));
-  fields.f_s[1] = 0.01;
+  fields.f_s[1] = 0.1;
+  fields.f_s[2] = 0.05;
+  fields.theta[2] = 3.0;
   fields.theta[1] = 2.0;
   EXPECT_EQ(*theta_max(fields, scene), 2.0);
 }

@@ -17,6 +17,8 @@ TEST(Speeds, ArePickedByThePhasePresent) {
   const auto scene = small_scene();
   auto fields = empty_fields(scene);
   fields.u_s[0][0] = 9.0;  // no grains there
+  fields.f_s[3] = 0.05;
+  fields.u_s[0][3] = 8.0;  // nor, to speak of, there
   EXPECT_FALSE(u_s_max(fields, scene));
   EXPECT_FALSE(u_s_dense_max(fields, scene));
   EXPECT_FALSE(u_liquid_max(fields, scene));

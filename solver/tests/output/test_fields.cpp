@@ -95,7 +95,7 @@ TEST(FieldsFile, ResumeRemovesLaterInstantsLinkedOrJoined) {
     if (joined) {
       ASSERT_TRUE(first.join());
     }
-    auto file = FieldsFile::resume(directory.path(), scene, 0.1);
+    auto file = FieldsFile::resume(directory.path(), scene, std::vector{0.0, 0.1});
     EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0, 0.1}));
     file.append(numbered_fields(scene, 0.25));
     EXPECT_EQ(read_field_times(path), (std::vector<double>{0.0, 0.1, 0.25}));
@@ -143,7 +143,7 @@ TEST(FieldsFile, ReadingADamagedOrMissingFileNamesIt) {
   EXPECT_NE(message_of<OutputError>([&] { read_field_times(path); }).find(path.string()), std::string::npos);
   write_file_atomically(path, "not HDF5");
   EXPECT_NE(message_of<OutputError>([&] { read_field_times(path); }).find(path.string()), std::string::npos);
-  EXPECT_THROW(FieldsFile::resume(directory.path(), small_scene(), 0.0), OutputError);
+  EXPECT_THROW(FieldsFile::resume(directory.path(), small_scene(), {}), OutputError);
 }
 
 }  // namespace

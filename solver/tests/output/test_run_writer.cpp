@@ -20,8 +20,13 @@ const std::vector<Column> monitors{{"dt", "s", "time step"}};
 
 class RunDirectory : public testing::Test {
  protected:
+  RunDirectory() {
+    for (int r = 0; r < 10; ++r) scene.times.row_times.push_back(0.1 * r);
+    scene.times.field_times = scene.times.row_times;
+    scene.times.end = 1.0;
+  }
   RunWriter fresh() const { return RunWriter::fresh(run, scene, start, monitors); }
-  RunWriter resume(double time) const { return RunWriter::resume(run, scene, start, monitors, time); }
+  RunWriter resume() const { return RunWriter::resume(run, scene, start, monitors).writer; }
 
   void write_row(RunWriter& writer, double time) const {
     const std::vector<Value> dt{0.01};
@@ -171,7 +176,7 @@ TEST_F(RunDirectory, ResumeCutsWhatIsLaterThanTheCheckpointAndGoesOn) {
   write_run(5);
   const auto start_date = record()["start_date"];
   {
-    auto writer = resume(read_checkpoint(run / "checkpoint.h5", scene).time);
+    auto writer = resume();
     write_row(writer, 0.35);
     EXPECT_EQ(record()["start_date"], start_date);  // untouched yet
     writer.write_fields(numbered_fields(scene, 0.35));
@@ -182,24 +187,28 @@ TEST_F(RunDirectory, ResumeCutsWhatIsLaterThanTheCheckpointAndGoesOn) {
   EXPECT_EQ(record()["start_date"], start_date);
   ASSERT_EQ(record()["resumptions"].size(), 1U);
   EXPECT_EQ(record()["resumptions"][0]["time"], 0.2);
-  { resume(0.2).finish(progress(0.2), {ExitState::finished, ""}); }
+  { resume().finish(progress(0.2), {ExitState::finished, ""}); }
   EXPECT_EQ(record()["resumptions"].size(), 2U);
 }
 
 TEST_F(RunDirectory, ResumeRefusesWhatIsNotItsRun) {
-  EXPECT_THROW(resume(0.0), OutputError);
+  EXPECT_THROW(resume(), OutputError);
   write_run(3);
   const auto before = read_file(run / "series.csv");
   start.program = "demvof";
-  EXPECT_NE(message_of<OutputError>([&] { resume(0.0); }).find("granvof"), std::string::npos);
+  EXPECT_NE(message_of<OutputError>([&] { resume(); }).find("granvof"), std::string::npos);
   start.program = "granvof";
   scene.hash = "fedcba9876543210";
-  EXPECT_NE(message_of<OutputError>([&] { resume(0.0); }).find("fedcba9876543210"), std::string::npos);
+  EXPECT_NE(message_of<OutputError>([&] { resume(); }).find("fedcba9876543210"), std::string::npos);
   EXPECT_EQ(read_file(run / "series.csv"), before);
 }
 
 TEST_F(RunDirectory, AKilledRunIsReadable) {
   const auto fields = numbered_fields(scene, 0.0);
+  scene.times.row_times.clear();
+  for (int r = 0; r < 10000; ++r) scene.times.row_times.push_back(r);
+  scene.times.field_times = scene.times.row_times;
+  scene.times.end = 10000.0;
   for (int attempt = 0; attempt < 12; ++attempt) {
     // Even attempts start a run, odd ones replace the one before.
     if (attempt % 2 == 0) std::filesystem::remove_all(run);
@@ -236,7 +245,7 @@ TEST_F(RunDirectory, AKilledRunIsReadable) {
     for (std::size_t i = 0; i < times.size(); ++i)
       EXPECT_EQ(read_fields(run / "fields.h5", i).phi, fields.phi);
 
-    auto writer = resume(time);
+    auto writer = resume();
     write_row(writer, time + 1.0);
     auto next = fields;
     next.time = time + 1.0;
@@ -244,6 +253,217 @@ TEST_F(RunDirectory, AKilledRunIsReadable) {
     EXPECT_EQ(row_times().size(), static_cast<std::size_t>(time) + 2);
     EXPECT_EQ(read_field_times(run / "fields.h5").size(), static_cast<std::size_t>(time) + 2);
   }
+}
+
+TEST_F(RunDirectory, RefusesTheRunOfAnotherCaseUnlessForced) {
+  write_run(3);
+  const auto before = read_file(run / "run.json");
+  const Scene same = scene;
+  scene.resolved = "[scene]\nname = \"sample\"\n\n[numerics]\ncfl = 0.2\n";
+  const auto text = message_of<OutputError>([&] { fresh(); });
+  EXPECT_NE(text.find("numerics.cfl was not given, is 0.2"), std::string::npos) << text;
+  EXPECT_NE(text.find("--force"), std::string::npos) << text;
+  scene = same;
+  scene.name = "other";
+  EXPECT_NE(message_of<OutputError>([&] { fresh(); }).find("scene sample, this is other"), std::string::npos);
+  scene = same;
+  scene.hash = "fedcba9876543210";
+  EXPECT_THROW(fresh(), OutputError);
+  start.program = "demvof";
+  EXPECT_THROW(fresh(), OutputError);
+  EXPECT_EQ(read_file(run / "run.json"), before);
+  EXPECT_EQ(row_times().size(), 3U);
+  auto writer = RunWriter::fresh(run, scene, start, monitors, true);
+  write_row(writer, 0.0);
+  EXPECT_EQ(row_times().size(), 1U);
+  EXPECT_EQ(record()["program"], "demvof");
+}
+
+// What is not ours stays: a folder that happens to be called as the one of our instants.
+TEST_F(RunDirectory, LeavesTheUsersOwnFilesInTheFolderOfTheFields) {
+  write_run(3);
+  std::filesystem::create_directories(run / "fields" / "thesis");
+  for (const char* name : {"fields/notes.txt", "fields/t12.h5", "fields/thesis/t0001.h5", "series.csv.bak"})
+    std::ofstream(run / name) << "mine";
+  write_run(2);
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  for (const char* name : {"fields/notes.txt", "fields/t12.h5", "fields/thesis/t0001.h5", "series.csv.bak"})
+    EXPECT_EQ(read_file(run / name), "mine") << name;
+  EXPECT_FALSE(std::filesystem::exists(run / "fields/t0000.h5"));
+}
+
+TEST_F(RunDirectory, TheDraftOfARunKilledInItsFirstMomentIsInNobodysWay) {
+  std::filesystem::create_directories(run);
+  std::ofstream(run / "run.json.tmp") << "{\"format\": \"gran";
+  EXPECT_FALSE(RunWriter::resume(run, scene, start, monitors).checkpoint);
+  write_run(2);
+  EXPECT_EQ(row_times().size(), 2U);
+  std::filesystem::remove_all(run);
+  {  // ended before its first checkpoint: begins anew
+    auto killed = fresh();
+    write_row(killed, 0.0);
+    write_row(killed, 0.1);
+  }
+  for (const char* name : {"checkpoint.h5.tmp", "series.csv.tmp", "fields.h5.tmp", "run.json.tmp"})
+    std::ofstream(run / name) << "torn";
+  {
+    auto again = RunWriter::resume(run, scene, start, monitors);
+    EXPECT_FALSE(again.checkpoint);
+    write_row(again.writer, 0.0);
+  }
+  EXPECT_EQ(row_times().size(), 1U);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(run))
+    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+}
+
+TEST_F(RunDirectory, OnlyItsEndAndLaterOutputMayChangeOnResume) {
+  scene.resolved = "[time]\nend = 1\n\n[numerics]\ncfl = 0.4\n\n[output]\nfield_times = [0, 1]\n";
+  write_run(5);
+  const Scene as_written = scene;
+  scene.resolved = "[time]\nend = 1\n\n[numerics]\ncfl = 0.2\n\n[output]\nfield_times = [0, 1]\n";
+  const auto text = message_of<OutputError>([&] { resume(); });
+  EXPECT_NE(text.find("numerics.cfl was 0.4, is 0.2; only time.end and output"), std::string::npos) << text;
+  scene = as_written;
+  scene.resolved = "[time]\nend = 2\n\n[numerics]\ncfl = 0.4\n\n[output]\nfield_times = [0, 2]\n";
+  start.threads = 3;
+  resume().write_progress(progress(0.2));
+  const auto kept = record()["resumptions"].back();
+  EXPECT_EQ(kept["threads"], 3);
+  ASSERT_EQ(kept["changes"].size(), 2U);
+  EXPECT_EQ(kept["changes"][0]["key"], "time.end");
+  EXPECT_EQ(kept["changes"][0]["was"], "1");
+  EXPECT_EQ(kept["changes"][0]["is"], "2");
+  EXPECT_EQ(kept["changes"][1]["key"], "output.field_times");
+  resume().write_progress(progress(0.2));  // the history is kept
+  EXPECT_EQ(record()["resumptions"][0]["changes"].size(), 2U);
+  EXPECT_EQ(record()["resumptions"][1]["changes"].size(), 0U);
+  scene.times.end = 0.2;
+  EXPECT_NE(message_of<OutputError>([&] { resume(); }).find("the case ends at 0.2 s"), std::string::npos);
+}
+
+// Rows and instants up to the checkpoint are there, as the case asks for them, or there is no going on.
+TEST_F(RunDirectory, ResumeRefusesAHole) {
+  const auto refused = [&](const char* what) {
+    EXPECT_NE(message_of<OutputError>([&] { resume().write_progress(progress(0.2)); }).find(what),
+              std::string::npos)
+        << message_of<OutputError>([&] { resume().write_progress(progress(0.2)); });
+  };
+  write_run(5);
+  const std::string text = read_file(run / "series.csv");
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n') ends.push_back(i + 1);
+  write_file_atomically(run / "series.csv", text.substr(0, ends[2]));  // older than the checkpoint
+  refused("row 3 should be of t = 0.2 s");
+  write_file_atomically(run / "series.csv", text.substr(0, ends[1]) + text.substr(ends[2]));  // one taken out
+  refused("row 2 should be of t = 0.1 s, the case asks for it before the checkpoint, and is of 0.2 s");
+  std::filesystem::remove(run / "series.csv");
+  refused("series.csv");
+  write_file_atomically(run / "series.csv", text);
+  scene.times.field_times.insert(scene.times.field_times.begin() + 1, 0.05);
+  refused("instant 2 should be of t = 0.05 s");
+  scene.times.field_times = {0.0, 0.2};
+  refused("instant 2 should be of t = 0.2 s, the case asks for it before the checkpoint, and is of 0.1 s");
+  scene.times.field_times = {0.0, 0.1, 0.2, 0.25};  // later ones may be other ones
+  resume().write_progress(progress(0.2));
+  EXPECT_EQ(read_field_times(run / "fields.h5").size(), 3U);
+  std::filesystem::remove(run / "fields/t0001.h5");
+  EXPECT_THROW(resume().write_progress(progress(0.2)), OutputError);
+  std::filesystem::remove(run / "checkpoint.h5");
+  refused("checkpoint.h5 has gone");
+}
+
+TEST_F(RunDirectory, WhatIsTakenAwayWhileItRunsIsNoticed) {
+  const auto begun = [&] {
+    std::filesystem::remove_all(run);
+    auto writer = fresh();
+    for (int r = 0; r < 3; ++r) {
+      write_row(writer, 0.1 * r);
+      writer.write_fields(numbered_fields(scene, 0.1 * r));
+    }
+    return writer;
+  };
+  const ExitState finished = ExitState::finished;
+  {
+    auto writer = begun();
+    std::filesystem::remove(run / "series.csv");
+    EXPECT_THROW(write_row(writer, 0.3), OutputError);
+    EXPECT_THROW(writer.write_checkpoint(state(0.3), progress(0.3)), OutputError);
+    EXPECT_THROW(writer.finish(progress(0.3), {finished, ""}), OutputError);
+  }
+  {
+    auto writer = begun();
+    std::filesystem::resize_file(run / "series.csv", 100);
+    EXPECT_THROW(write_row(writer, 0.3), OutputError);
+  }
+  {
+    auto writer = begun();
+    const std::string copy = read_file(run / "series.csv");
+    std::filesystem::remove(run / "series.csv");
+    std::ofstream(run / "series.csv") << copy;
+    EXPECT_THROW(write_row(writer, 0.3), OutputError);
+  }
+  for (const char* gone : {"fields", "fields/t0002.h5", "fields/t0001.h5"}) {
+    auto writer = begun();
+    std::filesystem::remove_all(run / gone);
+    EXPECT_THROW(writer.finish(progress(0.3), {finished, ""}), OutputError) << gone;
+    writer.give_up(progress(0.3), "gone");
+    EXPECT_EQ(record()["exit"]["state"], "failed");
+    EXPECT_EQ(record()["exit"]["reason"], "gone");
+  }
+}
+
+TEST_F(RunDirectory, StatesWhatItHolds) {
+  write_run(3);
+  const auto files = record()["files"];
+  EXPECT_EQ(files["series.csv"]["rows"], 3);
+  EXPECT_EQ(files["series.csv"]["end"], 0.2);
+  EXPECT_EQ(files["series.csv"]["columns"].size(), 2 + scalar_table().size());
+  EXPECT_EQ(files["series.csv"]["columns"][1], "dt [s]");
+  EXPECT_EQ(files["series.csv"]["sha256"], digest_of_file(run / "series.csv"));
+  EXPECT_EQ(files["fields.h5"]["instants"], 3);
+  EXPECT_EQ(files["fields.h5"]["sha256"], digest_of_file(run / "fields.h5"));
+  EXPECT_EQ(record()["exit"]["resume_from"], 0.2);
+  auto writer = resume();
+  write_row(writer, 0.3);
+  writer.write_progress(progress(0.3));
+  EXPECT_EQ(record()["files"]["series.csv"]["rows"], 4);
+  EXPECT_EQ(record()["files"]["series.csv"]["sha256"], digest_of_file(run / "series.csv"));
+  EXPECT_TRUE(record()["files"]["fields.h5"]["sha256"].is_null());  // links, while it runs
+  std::filesystem::remove_all(run);
+  fresh().write_progress(progress(0.0));
+  EXPECT_TRUE(record()["exit"]["resume_from"].is_null());
+  EXPECT_TRUE(record()["files"]["series.csv"]["end"].is_null());
+}
+
+// A disk so full that no draft fits leaves the room of the run.json that is there.
+TEST_F(RunDirectory, TheEndIsWrittenOverTheOldRecordWhereNoDraftCanBe) {
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  std::filesystem::create_directory(run / "run.json.tmp");
+  EXPECT_THROW(writer.write_progress(progress(0.1)), OutputError);
+  writer.give_up(progress(0.1), "no space left on device");
+  EXPECT_EQ(record()["exit"]["state"], "failed");
+  EXPECT_EQ(record()["exit"]["reason"], "no space left on device");
+}
+
+TEST_F(RunDirectory, TwoRunsAreEqualToTheByte) {
+  write_run(3);
+  const auto fields = read_file(run / "fields.h5"), series = read_file(run / "series.csv");
+  ::usleep(1100000);  // HDF5 counts whole seconds
+  write_run(3);
+  EXPECT_EQ(read_file(run / "fields.h5"), fields);
+  EXPECT_EQ(read_file(run / "series.csv"), series);
+}
+
+TEST(Digest, IsSha256) {
+  Digest digest;
+  EXPECT_EQ(digest.hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  digest.add("a");
+  digest.add("bc");
+  EXPECT_EQ(digest.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(digest.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 }  // namespace

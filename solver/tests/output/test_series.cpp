@@ -59,7 +59,7 @@ TEST(SeriesFile, ResumeCutsLaterAndTornRows) {
   const auto path = directory.path() / "series.csv";
   const std::string header = "time [s],y_c [m],f_s_max [-]\n";
   put(path, header + "0,,1\n0.1,2,3\n0.2,4,5\n0.3,6");
-  auto file = SeriesFile::resume(path, columns, 0.1);
+  auto file = SeriesFile::resume(path, columns, std::vector{0.0, 0.1});
   EXPECT_EQ(read_file(path), header + "0,,1\n0.1,2,3\n");
   file.append(row(0.2, 7.0, 8.0));
   EXPECT_EQ(read_file(path), header + "0,,1\n0.1,2,3\n0.2,7,8\n");
@@ -68,9 +68,9 @@ TEST(SeriesFile, ResumeCutsLaterAndTornRows) {
 TEST(SeriesFile, ResumeRefusesOtherColumnsAndAMissingFile) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "series.csv";
-  EXPECT_THROW(SeriesFile::resume(path, columns, 0.0), OutputError);
+  EXPECT_THROW(SeriesFile::resume(path, columns, {}), OutputError);
   put(path, "time [s],y_c [m]\n0,1\n");
-  const auto text = message_of<OutputError>([&] { SeriesFile::resume(path, columns, 0.0); });
+  const auto text = message_of<OutputError>([&] { SeriesFile::resume(path, columns, {}); });
   EXPECT_NE(text.find("columns"), std::string::npos);
   EXPECT_EQ(read_file(path), "time [s],y_c [m]\n0,1\n");
 }

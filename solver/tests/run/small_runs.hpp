@@ -52,11 +52,13 @@ inline Scene column_scene(const std::vector<std::string>& overrides = {}) {
   return parse_scene(column_case, "column.toml", overrides);
 }
 
-inline int run_into(const std::filesystem::path& out, const Scene& scene, bool resume = false) {
+inline int run_into(const std::filesystem::path& out, const Scene& scene, bool resume = false,
+                    int threads = 1) {
   RunOptions options;
   options.out = out;
   options.command = "test";
   options.resume = resume;
+  options.threads = threads;
   options.progress = false;
   return run_case(scene, options);
 }

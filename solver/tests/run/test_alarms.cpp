@@ -20,10 +20,12 @@ using test::run_into;
 class RunAlarms : public ::testing::Test {
  protected:
   json record_of(const std::vector<std::string>& overrides) {
-    EXPECT_EQ(run_into(directory_.path() / "run", column_scene(overrides)), 0);
-    return json::parse(test::text_of(directory_.path() / "run" / "run.json"));
+    const auto run = directory_.path() / ("run" + std::to_string(++runs_));
+    EXPECT_EQ(run_into(run, column_scene(overrides)), 0);
+    return json::parse(test::text_of(run / "run.json"));
   }
   std::filesystem::path path(const char* name) const { return directory_.path() / name; }
+  int runs_ = 0;
   // Changes a field half-way through a run; the exit code of what goes on from there, and its record in
   // `resumed_`.
   int resume_with(const std::function<void(std::vector<double>&)>& change, const char* field = "f_s") {

@@ -161,28 +161,84 @@ TEST_F(RunCase, ResumedRunIsTheSameRun) {
   }
 }
 
+// Sends `signal` once the run has its fourth row: after run_case has set its handler, in the middle of the
+// run.
+int stopped_by(int signal, const std::filesystem::path& run, const Scene& scene) {
+  std::thread killer([&] {
+    const auto rows = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+    while (rows(text_of(run / "series.csv")) < 4) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    std::raise(signal);
+  });
+  const int code = run_into(run, scene);
+  killer.join();
+  return code;
+}
+
 TEST_F(RunCase, StoppedBySignalAndResumed) {
   const Scene scene = column_scene({"time.end=0.3"});
   ASSERT_EQ(run_into(path("whole"), scene), 0);
-  // The signal must come after run_case has set its handler, best in the middle of the run.
-  std::thread killer([&] {
-    const auto rows = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
-    while (rows(text_of(path("parts") / "series.csv")) < 4)
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-    std::raise(SIGTERM);
-  });
-  const int code = run_into(path("parts"), scene);
-  killer.join();
-  EXPECT_EQ(code, 1);
-  json record = record_of(path("parts"));
+  EXPECT_EQ(stopped_by(SIGTERM, path("parts"), scene), 1);
+  const json record = record_of(path("parts"));
   EXPECT_EQ(record["exit"]["state"], "stopped");
-  EXPECT_NE(record["exit"]["reason"].get<std::string>().find("signal"), std::string::npos);
+  EXPECT_EQ(record["exit"]["reason"], "stopped by a signal (SIGTERM)");
+  EXPECT_EQ(record["exit"]["resume_from"], record["simulated_time"]);
   EXPECT_LT(record["simulated_time"].get<double>(), 0.3);
   EXPECT_GT(record["simulated_time"].get<double>(), 0.01);
   ASSERT_EQ(run_into(path("parts"), scene, true), 0);
   EXPECT_EQ(text_of(path("whole") / "series.csv"), text_of(path("parts") / "series.csv"));
+  EXPECT_EQ(text_of(path("whole") / "fields.h5"), text_of(path("parts") / "fields.h5"));
   expect_same_fields(path("whole"), path("parts"));
   expect_same_checkpoints(path("whole"), path("parts"), scene);
+}
+
+TEST_F(RunCase, EverySignalOfASchedulerOrAShellStopsItWithACheckpoint) {
+  const std::vector<std::pair<int, std::string>> signals{{SIGINT, "SIGINT"},
+                                                         {SIGHUP, "SIGHUP"},
+                                                         {SIGUSR1, "SIGUSR1"},
+                                                         {SIGXCPU, "SIGXCPU"},
+                                                         {SIGPIPE, "SIGPIPE"}};
+  const Scene scene = column_scene({"time.end=2"});
+  for (const auto& [signal, name] : signals) {
+    EXPECT_EQ(stopped_by(signal, path(name.c_str()), scene), 1) << name;
+    const json exit = record_of(path(name.c_str()))["exit"];
+    EXPECT_EQ(exit["state"], "stopped");
+    EXPECT_EQ(exit["reason"], "stopped by a signal (" + name + ")");
+    EXPECT_EQ(exit["resume_from"], read_checkpoint(path(name.c_str()) / "checkpoint.h5", scene).time);
+  }
+}
+
+TEST_F(RunCase, AnEndThatItSurvivesIsInTheRecord) {
+  // its series taken away while it runs
+  std::thread thief([&] {
+    while (text_of(path("robbed") / "series.csv").size() < 3000)
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    std::filesystem::remove(path("robbed") / "series.csv");
+  });
+  EXPECT_EQ(run_into(path("robbed"), column_scene({"time.end=2"})), 1);
+  thief.join();
+  json exit = record_of(path("robbed"))["exit"];
+  EXPECT_EQ(exit["state"], "failed");
+  EXPECT_NE(exit["reason"].get<std::string>().find("removed or replaced"), std::string::npos)
+      << exit["reason"];
+  EXPECT_TRUE(exit["resume_from"].is_null());
+  // a value that no formula was made for
+  for (const char* unusual : {"solid.friction=1e300", "contact.stiffness=1e300", "liquid.viscosity=1e300"}) {
+    const int code = run_into(path(unusual), column_scene({unusual, "time.end=0.02"}));
+    exit = record_of(path(unusual))["exit"];
+    EXPECT_EQ(exit["state"], code == 0 ? "finished" : "failed") << unusual;
+    EXPECT_EQ(exit["reason"].get<std::string>().empty(), code == 0) << unusual;
+  }
+}
+
+// Enough cells for threads to share. Sums are in the order of the cells, whoever adds them up.
+TEST_F(RunCase, ThreadsChangeNothing) {
+  const std::vector<std::string> changes{"grid.dx=0.00125", "time.end=0.01", "output.field_times=[0]"};
+  for (const int threads : {1, 2, 3, 3}) {
+    const auto out = path(std::to_string(threads).c_str());
+    ASSERT_EQ(run_into(out, column_scene(changes), false, threads), 0);
+    EXPECT_EQ(text_of(out / "series.csv"), text_of(path("1") / "series.csv")) << threads;
+    EXPECT_EQ(text_of(out / "fields.h5"), text_of(path("1") / "fields.h5")) << threads;
+  }
 }
 
 TEST_F(RunCase, ResumingWithoutACheckpointIsRefused) {
@@ -191,6 +247,8 @@ TEST_F(RunCase, ResumingWithoutACheckpointIsRefused) {
   EXPECT_THROW(run_into(path("run"), column_scene({"solid.density=2400"}), true),
                OutputError);                                                               // another case
   EXPECT_THROW(run_into(path("run"), column_scene({"grid.dx=0.02"}), true), OutputError);  // another grid
+  EXPECT_THROW(run_into(path("run"), column_scene({"numerics.cfl=0.2"}), true), OutputError);
+  EXPECT_THROW(run_into(path("run"), column_scene({"grid.dx=0.02"})), OutputError);  // nor is it replaced
 }
 
 TEST_F(RunCase, StepCollapseLeavesTheLastGoodStateAndTheReason) {
@@ -206,9 +264,9 @@ TEST_F(RunCase, StepCollapseLeavesTheLastGoodStateAndTheReason) {
   EXPECT_GT(record["refused_steps"].get<int>(), 0);
   EXPECT_EQ(read_checkpoint(path("run") / "checkpoint.h5", scene).time, record["exit"]["time"].get<double>());
   EXPECT_EQ(read_series(path("run") / "series.csv").rows.size(), 1U);  // what was good is on disk
-  // and the run goes on from there once the numerics allow it
-  EXPECT_EQ(run_into(path("run"), column_scene({"bed.solid_fraction=0.61", "time.end=0.01"}), true), 0);
-  EXPECT_EQ(record_of(path("run"))["exit"]["state"], "finished");
+  // With other numerics it would be another run.
+  EXPECT_THROW(run_into(path("run"), column_scene({"bed.solid_fraction=0.61", "time.end=0.01"}), true),
+               OutputError);
 }
 
 TEST_F(RunCase, ANanEndsTheRunWithAReason) {

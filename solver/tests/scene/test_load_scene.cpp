@@ -35,7 +35,8 @@ TEST(LoadScene, CountsTimesInColumnUnits) {
   const double unit = std::sqrt(0.05 / 9.81);
   EXPECT_DOUBLE_EQ(scene.times.unit, unit);
   EXPECT_DOUBLE_EQ(scene.times.end, 10 * unit);
-  EXPECT_DOUBLE_EQ(scene.times.series_interval, 0.05 * unit);
+  ASSERT_EQ(scene.times.row_times.size(), 201U);  // time.end / 200
+  for (std::size_t k = 0; k < 201; ++k) EXPECT_DOUBLE_EQ(scene.times.row_times[k], 0.05 * unit * k);
   EXPECT_EQ(scene.times.field_times, (std::vector<double>{0.0, unit, 5 * unit, 10 * unit}));
 }
 
@@ -46,6 +47,16 @@ TEST(LoadScene, KeepsTheHoldInSeconds) {
 TEST(LoadScene, SpacesFieldTimes) {
   EXPECT_EQ(small({"time.unit=s", "output.field_interval=4"}).times.field_times,
             (std::vector<double>{0, 4, 8, 10}));
+}
+
+// 3 * 0.1 is 0.30000000000000004, no time that anybody asked for.
+TEST(LoadScene, TimesAreThoseThatAPersonWrites) {
+  const auto tenths = small({"time.unit=s", "time.end=1", "output.series_interval=0.1"}).times.row_times;
+  EXPECT_EQ(tenths, (std::vector<double>{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1}));
+  const auto fine = small({"time.unit=s", "time.end=1", "output.series_interval=0.004"}).times.row_times;
+  for (std::size_t k = 0; k < tenths.size(); ++k) EXPECT_EQ(fine[25 * k], tenths[k]) << k;
+  const auto odd = small({"time.unit=s", "time.end=1", "output.series_interval=0.3"}).times.row_times;
+  EXPECT_EQ(odd, (std::vector<double>{0, 0.3, 0.6, 0.9, 1}));
 }
 
 TEST(LoadScene, DropsFieldTimesBeyondAnEndBroughtForward) {
