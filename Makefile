@@ -21,7 +21,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build verify test reference plots charts stability runout nightly bench format tidy sanitize
+.PHONY: help setup build verify test reference plots charts stability runout nightly faults bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -70,6 +70,10 @@ stability: setup  ## where the methods hold and fail, by bisection (half an hour
 nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)
 	ci/nightly
+
+faults: setup  ## bad input, kills, damaged files, full output (ci/faults.toml): tried and held
+	ci/build --programs release
+	ci/faults --build-dir $(RELEASE)
 
 bench: setup  ## performance of the parts
 	ci/build --benchmarks release

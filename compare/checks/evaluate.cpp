@@ -9,16 +9,20 @@
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
 #include "compare/input/records.hpp"
+#include "compare/input/table_error.hpp"
 #include "compare/input/uncertainty.hpp"
 #include "solver/scene/load_scene.hpp"
 
 namespace granvof::compare {
 namespace {
 
+constexpr const char* left_out_by_name = "left out by name";
+
 struct ReferenceValue {
   std::optional<double> value;
   double band = 0.0;
   Verdict without = Verdict::not_run;  // the verdict where there is no value
+  bool complete = true;                // false: a variant cannot be used, and the rest do not stand for it
   std::string note;
 };
 
@@ -36,8 +40,10 @@ ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
   std::vector<double> values;
   for (const LoadedRun& variant : variants) {
     if (!variant.run) {
+      reference.complete = false;
+      if (reference.without == Verdict::error) continue;
       reference.note = variant.reason;
-      if (variant.state == RunState::stale) reference.without = Verdict::stale;
+      reference.without = variant.state == RunState::stale ? Verdict::stale : Verdict::error;
       continue;
     }
     const Measured measured = metric.function(*variant.run, check.parameters, find);
@@ -49,7 +55,7 @@ ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
       reference.note = fmt::format("{}: {}", variant.run->directory.string(), measured.note);
     }
   }
-  if (values.empty()) return reference;
+  if (values.empty() || !reference.complete) return reference;
   double sum = 0.0;
   for (const double value : values) sum += value;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -70,30 +76,28 @@ ReferenceValue stated_reference(const Check& check, const Run& run) {
   return reference;
 }
 
-// A run that the row needs and that is not there, or holds nothing to measure, is never a pass.
+// A run that the row needs and that is not there, or holds nothing to measure, is never a pass; one that is
+// damaged is red also where the row is only reported.
 Result without_value(Result result, Verdict verdict, std::string note) {
   result.judgement.verdict = verdict;
-  result.judgement.unexpected = result.check.asserted;
+  result.judgement.unexpected = result.check.asserted || verdict == Verdict::error;
   result.note = std::move(note);
   return result;
 }
 
-Result evaluate_check(const Check& check, const Evaluation& evaluation, const RunSummary& summary,
-                      const std::map<std::string, std::vector<LoadedRun>>& records, const Bands& bands) {
+Verdict without_run(RunState state) {
+  if (state == RunState::stale) return Verdict::stale;
+  return state == RunState::refused ? Verdict::error : Verdict::not_run;
+}
+
+Result measure_and_judge(Result result, const Evaluation& evaluation, const Run& run,
+                         const std::map<std::string, std::vector<LoadedRun>>& records, const Bands& bands) {
+  const Check check = result.check;
   const MetricEntry& metric = *find_metric(check.metric);
-  Result result;
-  result.check = check;
-  result.unit = metric.unit;
-  const auto own = evaluation.usable.find(check.run);
-  if (own == evaluation.usable.end())
-    return summary.state == RunState::stale ? without_value(std::move(result), Verdict::stale, "")
-                                            : without_value(std::move(result), Verdict::not_run,
-                                                            fmt::format("run {}", name_of(summary.state)));
   const FindRun find = [&](std::string_view id) -> const Run* {
     const auto found = evaluation.usable.find(std::string(id));
     return found == evaluation.usable.end() ? nullptr : &found->second;
   };
-  const Run& run = own->second;
   const Measured measured = metric.function(run, check.parameters, find);
   result.value = measured.value;
   const ReferenceValue reference =
@@ -106,19 +110,48 @@ Result evaluate_check(const Check& check, const Evaluation& evaluation, const Ru
   if (!measured.value) return without_value(std::move(result), Verdict::differs, measured.note);
   if (!std::isfinite(*measured.value))
     return without_value(std::move(result), Verdict::not_run, "refused: the metric is not finite");
-  if (!reference.value) {
-    // A reference that was not recorded, or went stale, is reported and does not turn the exit code.
-    result.judgement.verdict = reference.without;
-    result.judgement.unexpected = check.asserted && !check.reference.record;
-    return result;
-  }
+  if (!reference.value) return without_value(std::move(result), reference.without, reference.note);
   result.judgement = judge(*measured.value, *reference.value, reference.band, check);
   return result;
 }
 
+Result evaluate_check(const Check& check, const Evaluation& evaluation, const RunSummary& summary,
+                      const std::map<std::string, std::vector<LoadedRun>>& records, const Bands& bands,
+                      const LeftOut& left_out) {
+  Result result;
+  result.check = check;
+  result.unit = find_metric(check.metric)->unit;
+  if (left_out.records && check.reference.record) {
+    result.note = left_out_by_name;
+    return result;
+  }
+  const auto own = evaluation.usable.find(check.run);
+  if (own == evaluation.usable.end())
+    return without_value(std::move(result), without_run(summary.state),
+                         fmt::format("run {}", name_of(summary.state)));
+  try {
+    return measure_and_judge(result, evaluation, own->second, records, bands);
+  } catch (const std::exception& error) {  // of a file that is read only now
+    return without_value(std::move(result), Verdict::error, error.what());
+  }
+}
+
+// A row for what is damaged and that no check may take.
+Result damaged_result(const std::string& run, const LoadedRun& damaged) {
+  Result result;
+  result.check.id = fmt::format("evidence.{}", damaged.directory.string());
+  result.check.run = run;
+  result.check.metric = "evidence";
+  result.check.reference.kind = ReferenceKind::regression;
+  result.check.reference.source = damaged.directory.string();
+  result.check.tolerance.unit = "-";
+  result.unit = "-";
+  return without_value(std::move(result), Verdict::error, damaged.reason);
+}
+
 }  // namespace
 
-Result canary_result(const Canary& canary) {
+Result canary_result(const Canary& canary, const LeftOut& left_out) {
   Result result;
   result.check.id = "canary.reference.regression";
   result.check.run = "canary";
@@ -128,8 +161,8 @@ Result canary_result(const Canary& canary) {
   result.check.tolerance.unit = "-";
   result.unit = "-";
   result.judgement.verdict = canary.verdict;
-  result.judgement.unexpected = canary.verdict == Verdict::differs;
-  result.note = canary.note;
+  result.judgement.unexpected = canary.verdict != Verdict::agrees && !left_out.canary;
+  result.note = left_out.canary ? left_out_by_name : canary.note;
   return result;
 }
 
@@ -157,8 +190,22 @@ std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency) {
   return due;
 }
 
-Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths) {
+Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths, const LeftOut& left_out) {
   Evaluation evaluation;
+  const auto checks = due_checks(table, frequency);
+  if (checks.empty())
+    throw TableError(fmt::format("no check of the table is due at '{}'", name_of(frequency)));
+  std::vector<Result> damaged;
+  std::set<std::filesystem::path> named;
+  const auto usable_of = [&](const std::string& run, const std::vector<LoadedRun>& loaded) {
+    std::vector<Run> usable;
+    for (const LoadedRun& one : loaded) {
+      if (one.run) usable.push_back(*one.run);
+      if (one.state == RunState::refused && named.insert(one.directory).second)
+        damaged.push_back(damaged_result(run, one));
+    }
+    return usable;
+  };
   std::map<std::string, Scene> scenes;
   for (const PlannedRun& plan : due_runs(table, frequency)) {
     const Scene scene = load_scene(paths.cases / (plan.case_name + ".toml"), plan.set);
@@ -166,18 +213,16 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
     LoadedRun loaded = load_run(paths.runs / plan.id, plan.id, scene);
     evaluation.runs.push_back({plan, loaded.state, loaded.reason, loaded.facts});
     if (loaded.run) evaluation.usable.emplace(plan.id, std::move(*loaded.run));
-    for (const LoadedRun& peer : load_peers(paths.records, plan.case_name, scene))
-      if (peer.run) evaluation.peers[plan.id].push_back(*peer.run);
+    auto peers = usable_of(plan.id, load_peers(paths.records, plan.case_name, scene));
+    if (!peers.empty()) evaluation.peers[plan.id] = std::move(peers);
   }
-  const auto checks = due_checks(table, frequency);
   const Bands bands = read_bands(paths.records);
   std::map<std::string, std::vector<LoadedRun>> records;
   const auto load = [&](const std::string& name, const Scene& scene) {
-    if (records.contains(name)) return;
-    auto& variants = records[name];
-    variants = load_records(paths.records, name, scene);
-    for (const LoadedRun& variant : variants)
-      if (variant.run) evaluation.records[name].push_back(*variant.run);
+    if (left_out.records || records.contains(name)) return;
+    records[name] = load_records(paths.records, name, scene);
+    auto usable = usable_of(scene.name, records[name]);
+    if (!usable.empty()) evaluation.records[name] = std::move(usable);
   };
   for (const Check& check : checks)
     if (check.reference.record) load(*check.reference.record, scenes.at(check.run));
@@ -187,8 +232,9 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths)
   for (const Check& check : checks) {
     const auto summary = std::find_if(evaluation.runs.begin(), evaluation.runs.end(),
                                       [&](const RunSummary& run) { return run.plan.id == check.run; });
-    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records, bands));
+    evaluation.results.push_back(evaluate_check(check, evaluation, *summary, records, bands, left_out));
   }
+  evaluation.results.insert(evaluation.results.end(), damaged.begin(), damaged.end());
   return evaluation;
 }
 

@@ -19,6 +19,12 @@ struct Paths {
   std::filesystem::path records;  // reference/results
 };
 
+// What the user left out by name; it is reported as not run, and does not turn the exit code.
+struct LeftOut {
+  bool records = false;  // rows that are judged by a record
+  bool canary = false;
+};
+
 struct Result {
   Check check;
   std::string unit;
@@ -57,10 +63,14 @@ struct Canary {
   std::string note;
 };
 
-// The row that says so, for the end of the table; red if it differs.
-Result canary_result(const Canary& canary);
+// The row that says so, for the end of the table; red unless it agrees or was left out.
+Result canary_result(const Canary& canary, const LeftOut& left_out);
 
-// Throws CaseError if a case file of the table cannot be read.
-Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths);
+// A run, record or file that is damaged is an error of the rows that take it, and every other row is judged;
+// a damaged record that no row takes, but the plots, has a row of its own.
+// Throws CaseError if a case file of the table cannot be read, TableError if no check is due, OutputError if
+// bands.json is damaged.
+Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths,
+                    const LeftOut& left_out = {});
 
 }  // namespace granvof::compare

@@ -9,6 +9,7 @@
 
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
+#include "compare/input/name.hpp"
 #include "compare/input/toml_entry.hpp"
 
 namespace granvof::compare {
@@ -26,6 +27,14 @@ Frequency read_frequency(const TomlEntry& entry) {
                       {Frequency::short_, Frequency::verify, Frequency::nightly, Frequency::weekly});
 }
 
+// What becomes part of a path must not lead out of it.
+void require_name(const TomlEntry& entry, std::string_view key, const std::string& name) {
+  if (!is_name(name))
+    entry.fail(
+        key,
+        fmt::format("'{}' given; a name has letters, digits and -_. and begins with none of these", name));
+}
+
 PlannedRun read_run(const TomlEntry& entry) {
   entry.allow_only({"id", "case", "set", "beside", "frequency"});
   PlannedRun run;
@@ -34,6 +43,9 @@ PlannedRun read_run(const TomlEntry& entry) {
   if (entry.has("beside")) run.beside = entry.text("beside");
   if (run.beside && run.set.empty()) entry.fail("beside", "without 'set' it is the run it stands beside");
   run.case_name = entry.has("case") ? entry.text("case") : run.beside.value_or(run.id);
+  require_name(entry, "id", run.id);
+  require_name(entry, "case", run.case_name);
+  if (run.beside) require_name(entry, "beside", *run.beside);
   if (entry.has("frequency")) {
     if (!run.beside) entry.fail("frequency", "only a run beside another has one: its checks are that run's");
     run.frequency = read_frequency(entry);
@@ -89,6 +101,7 @@ Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
     if (reference.kind != ReferenceKind::dem)
       entry.fail("record", "only a reference of kind DEM has a record");
     reference.record = entry.text("record");
+    require_name(entry, "record", *reference.record);
     reference.source = source_of_record(*reference.record);
   }
   if (entry.has("source"))
@@ -290,6 +303,7 @@ Table read_root(const toml::table& root, std::string_view name) {
         entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
       table.checks.push_back(std::move(check));
     }
+  if (table.checks.empty()) throw TableError(fmt::format("{}: there is no [[check]]", name));
   return table;
 }
 

@@ -35,6 +35,8 @@ std::string_view name_of(Verdict verdict) {
       return "not run";
     case Verdict::stale:
       return "stale";
+    case Verdict::error:
+      return "error";
   }
   return "differs";
 }

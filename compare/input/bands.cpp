@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "solver/output/atomic_file.hpp"
@@ -47,15 +48,17 @@ Bands read_bands(const std::filesystem::path& records) {
   if (!differences.is_array()) throw OutputError("read", file, "it is not a JSON list");
   Bands bands;
   for (const auto& difference : differences) {
-    if (!difference.is_object()) continue;
-    if (!difference.contains("rms") || !difference["rms"].is_number())
-      throw OutputError("read", file, "a band without the number 'rms'");
-    const std::string against = difference.value("against", "");
-    for (const auto& [name, kind] : kinds)
-      if (against.starts_with(name))
-        bands.add(difference.value("scene", ""), difference.value("column", ""), kind,
-                  difference["rms"].get<double>());
+    try {
+      const std::string against = difference.at("against");
+      const double rms = difference.at("rms");
+      if (!(rms >= 0.0)) throw OutputError("read", file, fmt::format("a band of {}", rms));
+      for (const auto& [name, kind] : kinds)
+        if (against.starts_with(name)) bands.add(difference.at("scene"), difference.at("column"), kind, rms);
+    } catch (const nlohmann::json::exception& error) {
+      throw OutputError("read", file, error.what());
+    }
   }
+  if (bands.empty()) throw OutputError("read", file, "there is no band in it");
   return bands;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene) {
   LoadedRun loaded;
+  loaded.directory = directory;
   loaded.state = RunState::refused;
   try {
     loaded.facts = read_facts(directory / "record.json");
@@ -19,8 +20,14 @@ LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene
                                   loaded.facts->case_hash, scene.reference_hash);
       return loaded;
     }
-    loaded.run = Run{directory.filename().string(), directory, scene, *loaded.facts,
-                     read_series(directory / "series.csv")};
+    // A record's rows and end are as its recorder was asked, of which the hash knows nothing.
+    const auto& files = loaded.facts->files;
+    const double stated_end = files ? files->series.end.value_or(0.0) : 0.0;
+    const Asked asked{0.0, loaded.facts->number("simulated_time").value_or(stated_end)};
+    Series series = read_evidence(directory, *loaded.facts, asked);
+    const double interval = interval_of(series, asked);
+    loaded.run =
+        Run{directory.filename().string(), directory, scene, *loaded.facts, std::move(series), interval};
     if (loaded.facts->grid) loaded.run->scene.grid = *loaded.facts->grid;  // of the record, not of our run
     loaded.state = RunState::usable;
   } catch (const std::exception& error) {

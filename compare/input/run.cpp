@@ -19,6 +19,48 @@ std::string text_of(const nlohmann::json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+template <typename Value>
+std::optional<Value> value_or_null(const nlohmann::json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<Value>());
+}
+
+StatedFiles stated_files(const nlohmann::json& json) {
+  const auto& series = json.at("series.csv");
+  StatedFiles files{
+      {series.at("rows"), value_or_null<double>(series.at("end")), series.at("columns"), series.at("sha256")},
+      std::nullopt};
+  if (const auto fields = json.find("fields.h5"); fields != json.end())
+    files.fields = StatedFields{fields->at("instants"), value_or_null<std::string>(fields->at("sha256"))};
+  return files;
+}
+
+RunFacts facts_of(const nlohmann::json& json) {
+  RunFacts facts;
+  facts.scene = text_of(json, "scene");
+  facts.version = text_of(json, "version");
+  facts.case_hash = text_of(json, "case_hash");
+  facts.resolved_case = text_of(json, "resolved_case");
+  facts.commit = text_of(json, "git_commit");
+  facts.date = text_of(json, "start_date");
+  if (const auto exit = json.find("exit"); exit != json.end() && exit->is_object()) {
+    facts.exit = text_of(*exit, "state");
+    facts.reason = text_of(*exit, "reason");
+  }
+  if (const auto host = json.find("host"); host != json.end() && host->is_object())
+    facts.host = text_of(*host, "cpu_model");
+  for (const auto& [key, value] : json.items())
+    if (value.is_number()) facts.numbers[key] = value.get<double>();
+  if (const auto monitors = json.find("monitors"); monitors != json.end() && monitors->is_object())
+    for (const auto& [key, value] : monitors->items())
+      if (value.is_number()) facts.numbers.emplace(key, value.get<double>());
+  if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
+    facts.numbers["warnings"] = static_cast<double>(warnings->size());
+  if (const auto grid = json.find("grid"); grid != json.end() && grid->is_object())
+    facts.grid = Grid3{grid->at("cells").get<std::array<int, 3>>(), grid->at("spacing").get<Vec3>()};
+  if (const auto files = json.find("files"); files != json.end()) facts.files = stated_files(*files);
+  return facts;
+}
+
 // A resolved case without its [reference] table, of which our own run reads nothing.
 std::string without_reference(const std::string& resolved) {
   std::istringstream lines(resolved);
@@ -72,39 +114,33 @@ std::optional<double> RunFacts::number(std::string_view name) const {
 RunFacts read_facts(const std::filesystem::path& json_file) {
   const auto json = nlohmann::json::parse(read_file(json_file), nullptr, false);
   if (!json.is_object()) throw OutputError("read", json_file, "it is not a JSON object");
-  RunFacts facts;
-  facts.scene = text_of(json, "scene");
-  facts.version = text_of(json, "version");
-  facts.case_hash = text_of(json, "case_hash");
-  facts.resolved_case = text_of(json, "resolved_case");
-  facts.commit = text_of(json, "git_commit");
-  facts.date = text_of(json, "start_date");
-  if (const auto exit = json.find("exit"); exit != json.end() && exit->is_object()) {
-    facts.exit = text_of(*exit, "state");
-    facts.reason = text_of(*exit, "reason");
+  try {
+    return facts_of(json);
+  } catch (const nlohmann::json::exception& error) {
+    throw OutputError("read", json_file, error.what());
   }
-  if (const auto host = json.find("host"); host != json.end() && host->is_object())
-    facts.host = text_of(*host, "cpu_model");
-  for (const auto& [key, value] : json.items())
-    if (value.is_number()) facts.numbers[key] = value.get<double>();
-  if (const auto monitors = json.find("monitors"); monitors != json.end() && monitors->is_object())
-    for (const auto& [key, value] : monitors->items())
-      if (value.is_number()) facts.numbers.emplace(key, value.get<double>());
-  if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
-    facts.numbers["warnings"] = static_cast<double>(warnings->size());
-  if (const auto grid = json.find("grid"); grid != json.end() && grid->is_object())
-    facts.grid = Grid3{grid->at("cells").get<std::array<int, 3>>(), grid->at("spacing").get<Vec3>()};
-  return facts;
+}
+
+Series read_evidence(const std::filesystem::path& directory, const RunFacts& facts, const Asked& asked) {
+  if (!facts.files)
+    throw OutputError("use", directory, "it was made by an earlier version, which did not say what it wrote");
+  const auto file = directory / "series.csv";
+  Series series = read_series(file);
+  require_series(series, file, facts.files->series, asked);
+  require_digest(file, facts.files->series.sha256);
+  // Recorders write at the end of a step, which may come a little after what was asked.
+  require_fields(directory, facts.files->fields, asked.end + interval_of(series, asked));
+  return series;
 }
 
 Curve Run::curve(std::string_view column) const {
   Curve curve;
+  if (interval > 0.0) curve.widest = widest_gap * interval;
   if (!series.has(column)) return curve;
   const auto time = series.column("time");
   const auto value = series.column(column);
   for (std::size_t i = 0; i < time.size(); ++i) {
     if (!time[i] || !value[i]) continue;
-    if (!curve.empty() && *time[i] <= curve.time.back()) continue;  // one row an instant
     curve.time.push_back(*time[i]);
     curve.value.push_back(*value[i]);
   }
@@ -126,6 +162,7 @@ std::optional<CellFields> Run::solid_fraction_at(double time) const {
 
 LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, const Scene& scene) {
   LoadedRun loaded;
+  loaded.directory = directory;
   if (!std::filesystem::exists(directory / "run.json")) {
     loaded.reason = fmt::format("no run in {}", directory.string());
     return loaded;
@@ -146,9 +183,12 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
       loaded.reason = "the case has changed since the run: " + first_difference(before, now);
       return loaded;
     }
-    loaded.run = Run{std::string(id), directory, scene, *loaded.facts, read_series(directory / "series.csv")};
-    if (!loaded.run->series.has("time"))
-      throw OutputError("read", directory / "series.csv", "no column 'time'");
+    const auto& rows = scene.times.row_times;
+    const Asked asked{rows.size() > 1 ? rows[1] - rows[0] : 0.0, scene.times.end,
+                      static_cast<std::int64_t>(rows.size())};
+    loaded.run =
+        Run{std::string(id), directory, scene, *loaded.facts, read_evidence(directory, *loaded.facts, asked),
+            asked.interval};
     loaded.state = RunState::usable;
   } catch (const std::exception& error) {
     loaded.run.reset();

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compare/input/evidence.hpp"
 #include "compare/metrics/curve.hpp"
 #include "solver/output/cell_fields.hpp"
 #include "solver/output/series_file.hpp"
@@ -22,6 +23,7 @@ struct RunFacts {
   std::string exit, reason;               // "finished", "failed", ... and why
   std::map<std::string, double> numbers;  // core_seconds, cells, steps, ... and the program's monitors
   std::optional<Grid3> grid;
+  std::optional<StatedFiles> files;  // nothing: made by an earlier version
 
   std::optional<double> number(std::string_view name) const;
 };
@@ -32,8 +34,10 @@ struct Run {
   Scene scene;
   RunFacts facts;
   Series series;
+  double interval = 0.0;  // between rows of the series [s]; 0: unknown
 
-  // The defined samples of a column against time [s]; empty if there is no such column.
+  // The defined samples of a column against time [s]; empty if there is no such column. It has a gap wherever
+  // a value is undefined.
   Curve curve(std::string_view column) const;
   // Times [s] of the instants in fields.h5; empty without one.
   std::vector<double> field_times() const;
@@ -54,16 +58,20 @@ std::string_view name_of(RunState state);
 
 struct LoadedRun {
   RunState state = RunState::missing;
+  std::filesystem::path directory;
   std::string reason;             // empty when usable
   std::optional<RunFacts> facts;  // where run.json could be read
   std::optional<Run> run;         // set when usable
 };
 
-// Reads a run and checks it: it ended, it holds no NaN, and its case is the one of `scene`.
-// Never throws for what the directory holds.
+// Reads a run and checks it: it ended, it holds no NaN, its case is the one of `scene`, and its files are
+// those that were written (evidence.hpp). Never throws for what the directory holds.
 LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, const Scene& scene);
 
-// Reads run.json (or a record's record.json). Throws OutputError.
+// Reads series.csv and checks it and fields.h5 against what `facts` say of them. Throws OutputError.
+Series read_evidence(const std::filesystem::path& directory, const RunFacts& facts, const Asked& asked);
+
+// Reads run.json (or a record's record.json). Throws OutputError, also where a value is of the wrong type.
 RunFacts read_facts(const std::filesystem::path& json_file);
 
 }  // namespace granvof::compare

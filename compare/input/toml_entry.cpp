@@ -24,6 +24,9 @@ toml::table parse_toml(std::string_view text, std::string_view name) {
 
 toml::table parse_toml_file(const std::filesystem::path& file) {
   const std::string name = file.string();
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown))
+    throw TableError(fmt::format("{}: it is a directory", name));
   return parsed([&] { return toml::parse_file(name); }, name);
 }
 

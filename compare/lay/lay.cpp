@@ -55,8 +55,10 @@ Curve curve_of(const Run& run, const Derived& quantity) {
   if (!run.series.has(quantity.name))
     return run.series.has(quantity.source) ? quantity.function(run) : Curve{};
   Curve given = run.curve(quantity.name);
-  if (quantity.abscissa == "T [-]")
-    for (double& t : given.time) t /= collapse_time(column_of(run));
+  if (quantity.abscissa != "T [-]") return given;
+  const double tau = collapse_time(column_of(run));
+  for (double& t : given.time) t /= tau;
+  given.widest /= tau;
   return given;
 }
 
@@ -115,6 +117,14 @@ Run read_their_series(const std::filesystem::path& file, const Scene& scene) {
       if (row[c]) *row[c] *= collapse_time(column_of(run));
     column.name = "time";
   }
+  const auto found = std::find_if(run.series.columns.begin(), run.series.columns.end(),
+                                  [](const Column& column) { return column.name == "time"; });
+  const auto at = static_cast<std::size_t>(found - run.series.columns.begin());
+  for (std::size_t row = 1; found != run.series.columns.end() && row < run.series.rows.size(); ++row)
+    if (!(run.series.rows[row][at] > run.series.rows[row - 1][at]))
+      throw std::invalid_argument(
+          fmt::format("{}: time does not ascend from row {} to row {}; compare/lay/lay sorts and converts",
+                      file.string(), row, row + 1));
   if (times != 1)
     throw std::invalid_argument(
         fmt::format("{}: one column 'time [s]' or 'T [-]' is needed, there are {}", file.string(), times));

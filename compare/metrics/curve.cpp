@@ -6,6 +6,7 @@ namespace granvof::compare {
 
 Curve clip(const Curve& curve, Window window) {
   Curve inside;
+  inside.widest = curve.widest;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (curve.time[i] < window.begin || curve.time[i] > window.end) continue;
     inside.time.push_back(curve.time[i]);
@@ -22,6 +23,8 @@ std::optional<double> value_at(const Curve& curve, double time) {
   if (after == curve.time.begin()) return curve.value.front();
   if (after == curve.time.end()) return curve.value.back();
   const std::size_t i = static_cast<std::size_t>(after - curve.time.begin());
+  const bool sampled = curve.time[i - 1] == time;
+  if (!sampled && curve.time[i] - curve.time[i - 1] > curve.widest) return std::nullopt;
   const double share = (time - curve.time[i - 1]) / (curve.time[i] - curve.time[i - 1]);
   return curve.value[i - 1] + share * (curve.value[i] - curve.value[i - 1]);
 }
@@ -29,8 +32,11 @@ std::optional<double> value_at(const Curve& curve, double time) {
 std::optional<double> integral(const Curve& curve) {
   if (curve.size() < 2) return std::nullopt;
   double sum = 0.0;
-  for (std::size_t i = 1; i < curve.size(); ++i)
-    sum += 0.5 * (curve.value[i] + curve.value[i - 1]) * (curve.time[i] - curve.time[i - 1]);
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const double step = curve.time[i] - curve.time[i - 1];
+    if (step > curve.widest) return std::nullopt;
+    sum += 0.5 * (curve.value[i] + curve.value[i - 1]) * step;
+  }
   return sum;
 }
 

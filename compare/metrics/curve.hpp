@@ -4,6 +4,7 @@
 // neither 0 nor NaN. Times ascend. All quantities in SI units.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace granvof::compare {
 struct Curve {
   std::vector<double> time;   // [s], or another stated abscissa, strictly ascending
   std::vector<double> value;  // same size
+  // Samples further apart than this are not joined: between them nothing is known [as time].
+  double widest = std::numeric_limits<double>::infinity();
 
   bool empty() const { return time.empty(); }
   std::size_t size() const { return time.size(); }
@@ -27,13 +30,15 @@ struct Window {
 Curve clip(const Curve& curve, Window window);
 
 // Linear interpolation at `time`; nothing outside the sampled range (no extrapolation), except that a time
-// beyond an end by less than 1e-9 of the range counts as that end.
+// beyond an end by less than 1e-9 of the range counts as that end, and nothing between two samples that are
+// further apart than `widest`.
 std::optional<double> value_at(const Curve& curve, double time);
 
-// Integral over the samples by the trapezoidal rule; nothing for fewer than two samples.
+// Integral over the samples by the trapezoidal rule; nothing for fewer than two samples, or across a gap.
 std::optional<double> integral(const Curve& curve);
 
-// Time mean (integral over duration), so that uneven sampling does not weigh in; nothing for fewer than two.
+// Time mean (integral over duration), so that uneven sampling does not weigh in; nothing for fewer than two
+// samples, or across a gap.
 std::optional<double> time_mean(const Curve& curve);
 
 // Largest and smallest value; nothing for an empty curve.

@@ -11,7 +11,9 @@ namespace granvof::compare {
 // diaphragm has broken and not at the first motion.
 inline Curve dam_break_front(const Curve& liquid_front, double width, double gravity, double shift) {
   Curve scaled = liquid_front;
-  for (double& t : scaled.time) t = t * std::sqrt(2.0 * gravity / width) + shift;
+  const double per_second = std::sqrt(2.0 * gravity / width);
+  for (double& t : scaled.time) t = t * per_second + shift;
+  scaled.widest *= per_second;
   for (double& x : scaled.value) x /= width;
   return scaled;
 }

@@ -19,6 +19,7 @@ std::optional<double> approach_rate(const Curve& curve, Window window, double re
 
 Curve resolved_part(const Curve& curve, double rest, double least) {
   Curve part;
+  part.widest = curve.widest;
   for (std::size_t i = 0; i < curve.size() && std::abs(curve.value[i] - rest) >= least; ++i) {
     part.time.push_back(curve.time[i]);
     part.value.push_back(curve.value[i]);

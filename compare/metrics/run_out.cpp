@@ -14,6 +14,7 @@ Curve run_out(const Curve& front, const ColumnSize& column) {
   if (!start) return {};
   const double tau = collapse_time(column);
   Curve scaled;
+  scaled.widest = front.widest / tau;
   for (std::size_t i = 0; i < front.size(); ++i) {
     if (front.time[i] < 0.0) continue;
     scaled.time.push_back(front.time[i] / tau);
@@ -24,6 +25,7 @@ Curve run_out(const Curve& front, const ColumnSize& column) {
 
 Curve before_wall(const Curve& front, double far_end, double cell) {
   Curve free;
+  free.widest = front.widest;
   for (std::size_t i = 0; i < front.size() && front.value[i] < far_end - cell; ++i) {
     free.time.push_back(front.time[i]);
     free.value.push_back(front.value[i]);

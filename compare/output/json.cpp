@@ -68,6 +68,7 @@ Json json_curve(const Curve& curve) {
 Curve sampled(const Curve& curve, std::size_t most) {
   if (curve.time.size() <= most) return curve;
   Curve taken;
+  taken.widest = curve.widest;
   for (std::size_t i = 0; i < most; ++i) {
     const std::size_t at = i * (curve.time.size() - 1) / (most - 1);
     taken.time.push_back(curve.time[at]);
@@ -161,8 +162,9 @@ std::string curves_json(const Evaluation& evaluation) {
     for (const Run& run : variants) json["records"][name][run.id] = json_entry(run);
   // Levels take reading all the fields: only those that a row asks for.
   for (const Result& result : evaluation.results)
-    if (const auto run = evaluation.usable.find(result.check.run);
-        result.check.parameters.level && run != evaluation.usable.end())
+    if (const auto run = evaluation.usable.find(result.check.run); result.check.parameters.level &&
+                                                                   run != evaluation.usable.end() &&
+                                                                   result.judgement.verdict != Verdict::error)
       json["runs"][run->first]["curves"][fmt::format("solid_level_{:g}", *result.check.parameters.level)] =
           json_curve(solid_level_curve(run->second, *result.check.parameters.level));
   for (const auto& [id, programs] : evaluation.peers)

@@ -5,9 +5,18 @@
 namespace granvof::compare {
 namespace {
 
+// XML knows no other control characters, not even escaped.
+bool is_no_xml(char c) {
+  return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
+}
+
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
+    if (is_no_xml(c)) {
+      out += fmt::format("\\x{:02x}", c);
+      continue;
+    }
     switch (c) {
       case '&':
         out += "&amp;";

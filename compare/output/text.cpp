@@ -70,6 +70,11 @@ std::string terminal_table(const Evaluation& evaluation) {
                         check.run, metric_label(check), short_number(result.value),
                         short_number(result.reference), result.unit, tolerance_text(check), verdict);
   }
+  std::string left_out;
+  for (const Result& result : evaluation.results)
+    if (result.judgement.verdict == Verdict::not_run && !result.judgement.unexpected && result.check.asserted)
+      left_out += fmt::format("{}{}", left_out.empty() ? "left out by name: " : ", ", result.check.id);
+  if (!left_out.empty()) text += left_out + "\n";
   for (const RunSummary& run : evaluation.runs)
     if (run.state != RunState::usable) text += fmt::format("{}: {}\n", run.plan.id, run.reason);
   text += fmt::format("{} checks:", evaluation.results.size());

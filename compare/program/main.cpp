@@ -1,8 +1,10 @@
 // granvof-compare: judges runs by the table of checks, and studies what a scene needs. Exit code 0: nothing
 // unexpected; 1: an unexpected verdict; 2: bad input.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +12,7 @@
 
 #include "compare/checks/evaluate.hpp"
 #include "compare/checks/table.hpp"
+#include "compare/input/name.hpp"
 #include "compare/lay/lay.hpp"
 #include "compare/output/write.hpp"
 #include "compare/program/study_commands.hpp"
@@ -29,6 +32,14 @@ struct Options {
   std::filesystem::path out = "out/verify";
   Frequency frequency = Frequency::verify;
   Canary canary;
+  std::vector<std::string> left_out;
+
+  LeftOut left() const {
+    const auto names = [this](const char* name) {
+      return std::find(left_out.begin(), left_out.end(), name) != left_out.end();
+    };
+    return {names("DEM"), names("canary")};
+  }
 };
 
 const std::map<std::string, Frequency> frequencies{{"verify", Frequency::verify},
@@ -50,8 +61,9 @@ int print_plan(const Options& options) {
 
 int check_runs(const Options& options) {
   const Table table = read_table(options.table);
-  Evaluation evaluation = evaluate(table, options.frequency, options.paths);
-  if (!options.canary.note.empty()) evaluation.results.push_back(canary_result(options.canary));
+  Evaluation evaluation = evaluate(table, options.frequency, options.paths, options.left());
+  if (!options.canary.note.empty() || options.left().canary)
+    evaluation.results.push_back(canary_result(options.canary, options.left()));
   std::filesystem::create_directories(options.out);
   const auto results = options.out / "results.json";
   // Kept for the report, which shows what changed since the last comparison.
@@ -72,8 +84,16 @@ struct LayOptions {
   std::vector<std::string> set;
 };
 
+// The scene named by --scene. Throws CaseError, std::runtime_error where it is a path.
+Scene scene_of(const LayOptions& options, const Paths& paths) {
+  if (!is_name(options.scene))
+    throw std::runtime_error(fmt::format("--scene: '{}' given; it is the name of a case in {}", options.scene,
+                                         paths.cases.string()));
+  return load_scene(paths.cases / (options.scene + ".toml"), options.set);
+}
+
 int lay_beside(const LayOptions& options, const Paths& paths) {
-  const Scene scene = load_scene(paths.cases / (options.scene + ".toml"), options.set);
+  const Scene scene = scene_of(options, paths);
   const auto directory = options.run.empty() ? paths.runs / options.scene : options.run;
   const LoadedRun ours = load_run(directory, options.scene, scene);
   if (!ours.run) throw std::runtime_error(ours.reason);
@@ -90,7 +110,7 @@ int lay_beside(const LayOptions& options, const Paths& paths) {
 // A series.csv of fields that are not ours, so that they need to be read only once. Prints the hash of what
 // they are a run of: a record keeps it, and goes stale with it.
 int extract_series(const LayOptions& options, const Paths& paths) {
-  const Scene scene = load_scene(paths.cases / (options.scene + ".toml"), options.set);
+  const Scene scene = scene_of(options, paths);
   const Series series = read_their_fields(options.fields, scene).series;
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   SeriesFile file = SeriesFile::create(options.out, series.columns);
@@ -120,6 +140,11 @@ int parse_and_run(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(canary_verdicts));
   check->add_option("--canary-note", options.canary.note,
                     "what it said; without it there is no row of the canary");
+  check
+      ->add_option("--leave-out", options.left_out,
+                   "what may be not run: DEM (rows judged by a record), canary; may be given again")
+      ->check(CLI::IsMember({"DEM", "canary"}))
+      ->allow_extra_args(false);
   check->add_option("--out", options.out, "where the results go")->capture_default_str();
 
   CLI::App* plan =
@@ -166,7 +191,11 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    // What nobody could read is no verdict.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("cannot write to standard output");
+    return code;
   } catch (const std::exception& error) {
     fmt::print(stderr, "granvof-compare: {}\n", error.what());
     return 2;

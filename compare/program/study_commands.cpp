@@ -1,6 +1,7 @@
 #include "compare/program/study_commands.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <functional>
@@ -75,6 +76,20 @@ const Chart* chart_of(const Study& study, const std::string& scene) {
   return nullptr;
 }
 
+// A grid that is held against itself is always confirmed. Throws std::runtime_error.
+void require_different_grids(const AdviseInput& input) {
+  if (input.cells.size() < 2) throw std::runtime_error("--cells: give two cell sizes or more");
+  std::map<std::array<int, 3>, double> grids;
+  for (const double cell : input.cells) {
+    std::vector<std::string> set = input.set;
+    set.push_back(fmt::format("grid.dx={:.12g}", cell));
+    const auto [other, is_new] = grids.emplace(load_scene(input.case_file, set).grid.cells, cell);
+    if (!is_new)
+      throw std::runtime_error(
+          fmt::format("--cells: {:.12g} and {:.12g} given; they make the same grid", other->second, cell));
+  }
+}
+
 // Those of its chart, else twice, once, half and a quarter of the case's own.
 std::vector<double> cells_for(const Chart* chart, const Scene& scene) {
   if (chart) return chart->grids;
@@ -146,7 +161,7 @@ struct StudyCommands::Options {
                       rows,
                       {}};
     std::sort(input.cells.begin(), input.cells.end(), std::greater<>());
-    if (input.cells.size() < 2) throw std::runtime_error("--cells: give two cell sizes or more");
+    require_different_grids(input);
     if (chart) input.panels = chart->panels;
     if (!against.empty()) input.against = references.at(against);
     CachedRunner made(runner);

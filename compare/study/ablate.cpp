@@ -77,6 +77,7 @@ std::optional<double> reference_of(const Check& check, const Run& run, const fs:
   double sum = 0.0;
   int count = 0;
   for (const LoadedRun& variant : load_records(records, *check.reference.record, run.scene)) {
+    if (variant.state == RunState::refused) throw std::runtime_error(variant.reason);
     const auto value = variant.run ? measure(check, *variant.run) : std::nullopt;
     sum += value.value_or(0.0);
     count += value ? 1 : 0;

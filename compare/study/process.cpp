@@ -8,11 +8,45 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace granvof::compare {
+
+namespace {
+
+// Starts the program so that it is asked to end when this one ends, however that happens: a run that nobody
+// waits for would hold its directory against the next.
+pid_t start(const std::vector<char*>& arguments, const std::filesystem::path& log) {
+  int failure[2];  // errno of a start that failed; closed by one that succeeds
+  if (pipe2(failure, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child == 0) {
+    // Only calls that are safe between fork and exec.
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(127);
+    const int in = open("/dev/null", O_RDONLY);
+    const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (in >= 0 && out >= 0 && dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0 &&
+        dup2(out, STDERR_FILENO) >= 0)
+      execv(arguments[0], arguments.data());
+    const int error = errno;
+    [[maybe_unused]] const ssize_t told = write(failure[1], &error, sizeof error);
+    _exit(127);
+  }
+  const int not_forked = errno;
+  close(failure[1]);
+  int error = child < 0 ? not_forked : 0;
+  if (child > 0 && read(failure[0], &error, sizeof error) > 0) waitpid(child, nullptr, 0);
+  close(failure[0]);
+  if (error != 0)
+    throw std::runtime_error(std::string("cannot start ") + arguments[0] + ": " + std::strerror(error));
+  return child;
+}
+
+}  // namespace
 
 Ended run_program(const std::vector<std::string>& command, const std::filesystem::path& log, double timeout) {
   std::vector<char*> arguments;
@@ -20,15 +54,7 @@ Ended run_program(const std::vector<std::string>& command, const std::filesystem
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
 
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = -1;
-  const int error = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error("cannot start " + command.front() + ": " + std::strerror(error));
+  const pid_t child = start(arguments, log);
 
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(timeout);

@@ -1,6 +1,7 @@
 #include "compare/study/target.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,7 @@ std::optional<double> cost_of_record(const Run& record) {
 // Mean of curves, on the samples of the first that all cover.
 Curve mean_curve(const std::vector<Curve>& curves) {
   Curve mean;
+  mean.widest = curves.front().widest;
   for (const double x : curves.front().time) {
     double sum = 0.0;
     bool covered = true;
@@ -63,6 +65,7 @@ Target dem_target(const Quantity& quantity, const Scene& scene, const std::files
   double dearest = 0.0;
   const Bands bands = read_bands(records);
   for (const LoadedRun& loaded : load_records(records, name, scene)) {
+    if (loaded.state == RunState::refused) throw std::runtime_error(loaded.reason);
     if (!loaded.run) {
       target.note = loaded.reason;
       continue;

@@ -26,6 +26,20 @@ TEST(Curve, IntegralAndTimeMeanWeighBySpacing) {
   EXPECT_FALSE(integral(Curve{{1.0}, {2.0}}));
 }
 
+// What lies between is not known, and is not made up.
+TEST(Curve, IsNotJoinedAcrossAGap) {
+  Curve gapped{{0.0, 1.0, 4.0, 5.0}, {0.0, 1.0, 4.0, 5.0}};
+  EXPECT_DOUBLE_EQ(*value_at(gapped, 2.5), 2.5);
+  gapped.widest = 1.5;
+  EXPECT_FALSE(value_at(gapped, 2.5));
+  EXPECT_DOUBLE_EQ(*value_at(gapped, 1.0), 1.0);  // the samples themselves are known
+  EXPECT_DOUBLE_EQ(*value_at(gapped, 4.0), 4.0);
+  EXPECT_DOUBLE_EQ(*value_at(gapped, 4.5), 4.5);
+  EXPECT_FALSE(integral(gapped));
+  EXPECT_FALSE(time_mean(clip(gapped, {0.5, 4.5})));
+  EXPECT_DOUBLE_EQ(*integral(clip(gapped, {4.0, 5.0})), 4.5);
+}
+
 TEST(Curve, ClipKeepsBothEnds) {
   const Curve inside = clip(line, {1.0, 3.0});
   EXPECT_EQ(inside.time, (std::vector<double>{1.0, 3.0}));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +12,10 @@
 
 #include "compare/checks/evaluate.hpp"
 #include "compare/checks/table.hpp"
+#include "compare/input/records.hpp"
 #include "compare/output/write.hpp"
+#include "compare/tests/files_stated.hpp"
+#include "solver/output/atomic_file.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
@@ -26,13 +31,12 @@ class Evaluate : public testing::Test {
     std::ofstream(file) << text;
   }
 
-  // A front that runs from 0.1 m at `speed`, to T = 10 of s1; the last row may be replaced.
-  static std::string series(double speed, const std::string& last_row = "") {
+  // A front that runs from 0.1 m at `speed`, to T = 10 of s1, as often as asked; a last row may be added.
+  std::string series(double speed, const std::string& last_row = "") const {
     std::string text = "time [s],front_dense [m],front_dilute [m],solid_volume [m3]\n";
-    for (int i = 0; i <= 10; ++i) {
-      const double t = 0.0706747 * i + (i == 10 ? 1e-6 : 0.0);
+    for (const double t : scene_.times.row_times) {
       const double x = 0.1 + speed * t;
-      text += std::to_string(t) + "," + std::to_string(x) + "," + std::to_string(x) + ",0.002\n";
+      text += fmt::format("{},{},{},0.002\n", t, x, x);
     }
     return text + last_row;
   }
@@ -46,13 +50,15 @@ class Evaluate : public testing::Test {
         {"resolved_case", scene_.resolved + resolved_tail},
         {"solid_volume_error", 1e-15},
         {"core_seconds", 2.5},
+        {"files", test::files_stated(series_text)},
         {"exit", {{"state", exit}, {"reason", exit == "finished" ? "" : "step collapse"}}}};
     write(paths_.runs / id / "run.json", json.dump());
     write(paths_.runs / id / "series.csv", series_text);
   }
 
   void write_record(const std::string& variant, double speed, const std::string& hash) {
-    const nlohmann::json json{{"scene", "s1"}, {"case_hash", hash}};
+    const nlohmann::json json{
+        {"scene", "s1"}, {"case_hash", hash}, {"files", test::files_stated(series(speed))}};
     write(paths_.records / "s1" / variant / "record.json", json.dump());
     write(paths_.records / "s1" / variant / "series.csv", series(speed));
   }
@@ -86,8 +92,7 @@ class Evaluate : public testing::Test {
 // A toe that is too loose for the dense front from T = 8 on: the run-out goes on by the front it began with.
 TEST_F(Evaluate, ARunOutKeepsItsDefinitionToTheEnd) {
   std::string text = "time [s],front_dense [m],front_dilute [m]\n";
-  for (int i = 0; i <= 100; ++i) {
-    const double t = 0.00706747 * i + (i == 100 ? 1e-6 : 0.0);
+  for (const double t : scene_.times.row_times) {
     text += fmt::format("{},{},{}\n", t, 0.1 + 0.1 * std::min(t, 0.4), 0.102 + 0.1 * t);
   }
   write_run("s1", text);
@@ -149,7 +154,7 @@ TEST_F(Evaluate, ANaNAnywhereRefusesTheRun) {
     // In a column that the row does not even read.
     write_run("s1", series(0.1, std::string("0.8,") + bad + ",0.2,0.002\n"));
     const Evaluation evaluation = evaluate_row(volume_row);
-    EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run) << bad;
+    EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error) << bad;
     EXPECT_EQ(evaluation.unexpected(), 1) << bad;
     EXPECT_NE(evaluation.runs[0].reason.find("refused"), std::string::npos);
   }
@@ -166,12 +171,12 @@ TEST_F(Evaluate, AnUndefinedMetricDiffers) {
   EXPECT_EQ(evaluation.unexpected(), 1);
 }
 
-TEST_F(Evaluate, WithoutARecordTheRowIsNotRunAndNotRed) {
+TEST_F(Evaluate, WithoutARecordTheRowIsNotRunAndRed) {
   write_run("s1", series(0.1));
   const Evaluation evaluation = evaluate_row(record_row);
   EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
   EXPECT_NEAR(*evaluation.results[0].value, run_out_at_5(0.1), 1e-4);
-  EXPECT_EQ(evaluation.unexpected(), 0);
+  EXPECT_EQ(evaluation.unexpected(), 1);
 }
 
 TEST_F(Evaluate, TheSpreadOfTheRecordsIsTheBand) {
@@ -210,7 +215,7 @@ TEST_F(Evaluate, AStaleRecordIsNeverCompared) {
   const Evaluation evaluation = evaluate_row(record_row);
   EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::stale);
   EXPECT_FALSE(evaluation.results[0].reference);
-  EXPECT_EQ(evaluation.unexpected(), 0);
+  EXPECT_EQ(evaluation.unexpected(), 1);
 }
 
 TEST_F(Evaluate, ResultFilesHoldTheRow) {
@@ -225,7 +230,7 @@ TEST_F(Evaluate, ResultFilesHoldTheRow) {
   EXPECT_EQ(json.at("runs").at(0).at("numbers").at("core_seconds"), 2.5);
   EXPECT_EQ(json.at("unexpected"), 0);
   const auto curves = nlohmann::json::parse(curves_json(evaluation));
-  EXPECT_EQ(curves.at("runs").at("s1").at("curves").at("run_out").at("x").size(), 11u);
+  EXPECT_EQ(curves.at("runs").at("s1").at("curves").at("run_out").at("x").size(), 201u);
 }
 
 TEST_F(Evaluate, JUnitCountsFailuresAndEscapes) {
@@ -238,17 +243,32 @@ TEST_F(Evaluate, JUnitCountsFailuresAndEscapes) {
   EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
 }
 
+// XML knows no control characters.
+TEST_F(Evaluate, JUnitHoldsNoControlCharacter) {
+  write_run("s1", series(0.1));
+  const Evaluation evaluation = evaluate_row(
+      "metric = \"solid_volume_error\"\nreference = { kind = \"theory\", value = 0, source = "
+      "\"a\\u0007b\\u001b\" }\n"
+      "tolerance = { absolute = 1e-12, unit = \"-\" }\n");
+  const std::string xml = junit_xml(evaluation);
+  EXPECT_NE(xml.find("a\\x07b\\x1b"), std::string::npos) << xml;
+  EXPECT_TRUE(std::none_of(xml.begin(), xml.end(), [](char c) { return c >= 0 && c < 0x20 && c != '\n'; }));
+}
+
 // A further curve, under the program's name; left out once its case has changed.
 TEST_F(Evaluate, TheRunOfAStockProgramIsAFurtherCurve) {
   write_run("s1", series(0.1));
   const auto peers_with = [&](const std::string& hash) {
-    const nlohmann::json json{{"program", "MPPICInterFoam"}, {"scene", "s1"}, {"case_hash", hash}};
+    const nlohmann::json json{{"program", "MPPICInterFoam"},
+                              {"scene", "s1"},
+                              {"case_hash", hash},
+                              {"files", test::files_stated(series(0.2))}};
     write(paths_.records / "peers" / "MPPICInterFoam" / "s1" / "record.json", json.dump());
     write(paths_.records / "peers" / "MPPICInterFoam" / "s1" / "series.csv", series(0.2));
     return nlohmann::json::parse(curves_json(evaluate_row(volume_row))).at("peers");
   };
   const auto peers = peers_with(scene_.reference_hash);
-  EXPECT_EQ(peers.at("s1").at("MPPICInterFoam").at("curves").at("run_out").at("x").size(), 11u);
+  EXPECT_EQ(peers.at("s1").at("MPPICInterFoam").at("curves").at("run_out").at("x").size(), 201u);
   EXPECT_TRUE(peers_with("another").empty());
 }
 
@@ -257,17 +277,122 @@ TEST_F(Evaluate, ARecordIsScaledByTheHeightItReallyHad) {
   write_record("seed1", 0.1, scene_.reference_hash);
   const double height = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
   const nlohmann::json json{{"case_hash", scene_.reference_hash},
-                            {"monitors", {{"released_height_m", 0.9 * height}}}};
+                            {"monitors", {{"released_height_m", 0.9 * height}}},
+                            {"files", test::files_stated(series(0.1))}};
   write(paths_.records / "s1" / "seed1" / "record.json", json.dump());
   write_record("seed2.part", 5.0, scene_.reference_hash);  // being written: no record yet
   // x / h at T: 5 sqrt(h / g) speed / h scales with 1 / sqrt(h).
   EXPECT_NEAR(*evaluate_row(record_row).results[0].reference, run_out_at_5(0.1) / std::sqrt(0.9), 1e-4);
 }
 
-TEST_F(Evaluate, TheCanaryIsRedOnlyWhereItDiffers) {
-  EXPECT_TRUE(canary_result({Verdict::differs, "front"}).judgement.unexpected);
-  EXPECT_FALSE(canary_result({Verdict::not_run, "demvof is not built"}).judgement.unexpected);
-  EXPECT_FALSE(canary_result({Verdict::agrees, "within"}).judgement.unexpected);
+TEST_F(Evaluate, TheCanaryIsRedUnlessItAgreesOrIsLeftOut) {
+  EXPECT_TRUE(canary_result({Verdict::differs, "front"}, {}).judgement.unexpected);
+  EXPECT_TRUE(canary_result({Verdict::not_run, "demvof is not built"}, {}).judgement.unexpected);
+  EXPECT_FALSE(canary_result({Verdict::agrees, "within"}, {}).judgement.unexpected);
+  LeftOut left_out;
+  left_out.canary = true;
+  EXPECT_FALSE(canary_result({Verdict::not_run, ""}, left_out).judgement.unexpected);
+}
+
+TEST_F(Evaluate, WhatIsLeftOutByNameIsNamedAndNotRed) {
+  write_run("s1", series(0.1));
+  const Table table = parse_table(
+      "[[run]]\nid = \"s1\"\n[[check]]\nrun = \"s1\"\nfrequency = \"verify\"\n" + record_row, "t");
+  LeftOut left_out;
+  left_out.records = true;
+  const Evaluation evaluation = evaluate(table, Frequency::verify, paths_, left_out);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_EQ(evaluation.unexpected(), 0);
+  EXPECT_NE(terminal_table(evaluation).find("left out by name: s1.run_out@5.DEM"), std::string::npos);
+}
+
+TEST_F(Evaluate, OneDamagedSeedIsAnErrorOfTheRow) {
+  write_run("s1", series(0.1));
+  write_record("seed1", 0.1, scene_.reference_hash);
+  write_record("seed2", 0.1, scene_.reference_hash);
+  const fs::path cut = paths_.records / "s1" / "seed2" / "series.csv";
+  fs::resize_file(cut, fs::file_size(cut) / 2);
+  const Evaluation evaluation = evaluate_row(record_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
+  EXPECT_NE(evaluation.results[0].note.find("seed2"), std::string::npos) << evaluation.results[0].note;
+  ASSERT_EQ(evaluation.results.size(), 2u);
+  EXPECT_EQ(evaluation.unexpected(), 2);  // the row, and the record by its name
+  EXPECT_EQ(evaluation.results[1].check.id, "evidence." + cut.parent_path().string());
+}
+
+// A run of another length is compared over what both cover.
+TEST_F(Evaluate, ARecordMayBeLongerOrShorterThanTheRun) {
+  write_record("seed1", 0.1, scene_.reference_hash);
+  for (const char* end : {"5", "20"}) {
+    const std::vector<std::string> set{std::string("time.end=") + end};
+    Scene other = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml", set);
+    other.reference_hash = scene_.reference_hash;  // whatever the hash knows of the end
+    EXPECT_TRUE(load_records(paths_.records, "s1", other).at(0).run) << end;
+  }
+}
+
+TEST_F(Evaluate, ARecordThatEndsBeforeItsTimeIsAnError) {
+  const std::string text = series(0.1);
+  const std::string cut = text.substr(0, text.find("\n", text.size() / 2) + 1);
+  const nlohmann::json json{{"scene", "s1"},
+                            {"case_hash", scene_.reference_hash},
+                            {"simulated_time", scene_.times.end},
+                            {"files", test::files_stated(cut)}};
+  write(paths_.records / "s1" / "seed1" / "record.json", json.dump());
+  write(paths_.records / "s1" / "seed1" / "series.csv", cut);
+  const LoadedRun loaded = load_records(paths_.records, "s1", scene_).at(0);
+  EXPECT_EQ(loaded.state, RunState::refused);
+  EXPECT_NE(loaded.reason.find("it ends at"), std::string::npos) << loaded.reason;
+}
+
+TEST_F(Evaluate, ADamagedRunIsAnErrorAndTheOthersAreJudged) {
+  write_run("s1", series(0.1));
+  write_run("other", series(0.1));
+  const fs::path cut = paths_.runs / "other" / "series.csv";
+  fs::resize_file(cut, fs::file_size(cut) - 1);  // the last row has no end
+  const std::string check = "[[check]]\nrun = [\"s1\", \"other\"]\nfrequency = \"verify\"\n" + volume_row;
+  const Evaluation evaluation =
+      evaluate(parse_table("[[run]]\nid = \"s1\"\n[[run]]\nid = \"other\"\ncase = \"s1\"\n" + check, "t"),
+               Frequency::verify, paths_);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::agrees);
+  EXPECT_EQ(evaluation.results[1].judgement.verdict, Verdict::error);
+  EXPECT_EQ(evaluation.unexpected(), 1);
+  EXPECT_NE(evaluation.runs[1].reason.find("it has 200 whole rows, written were 201"), std::string::npos)
+      << evaluation.runs[1].reason;
+}
+
+// Also where the row is only reported.
+TEST_F(Evaluate, ADamagedRunIsRedWhereNothingIsAsserted) {
+  write_run("s1", series(0.1));
+  write(paths_.runs / "s1" / "series.csv", "");
+  EXPECT_EQ(evaluate_row("asserted = false\n" + volume_row).unexpected(), 1);
+}
+
+TEST_F(Evaluate, ARunOfAnEarlierVersionIsAnError) {
+  write_run("s1", series(0.1));
+  auto json = nlohmann::json::parse(read_file(paths_.runs / "s1" / "run.json"));
+  json.erase("files");
+  write(paths_.runs / "s1" / "run.json", json.dump());
+  const Evaluation evaluation = evaluate_row(volume_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
+  EXPECT_NE(evaluation.runs[0].reason.find("made by an earlier version"), std::string::npos);
+}
+
+TEST_F(Evaluate, ValuesOfTheWrongKindInRunJsonAreAnError) {
+  for (const char* change :
+       {R"({"grid": {"cells": 3}})", R"({"files": []})", R"({"files": {"series.csv": {"rows": "x"}}})"}) {
+    write_run("s1", series(0.1));
+    auto json = nlohmann::json::parse(read_file(paths_.runs / "s1" / "run.json"));
+    json.update(nlohmann::json::parse(change));
+    write(paths_.runs / "s1" / "run.json", json.dump());
+    EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::error) << change;
+  }
+}
+
+TEST_F(Evaluate, NothingDueIsNoSuccess) {
+  const Table weekly = parse_table(
+      "[[run]]\nid = \"s1\"\n[[check]]\nrun = \"s1\"\nfrequency = \"weekly\"\n" + volume_row, "t");
+  EXPECT_THROW(evaluate(weekly, Frequency::verify, paths_), TableError);
 }
 
 // A front 0.01 m ahead of the published one everywhere is 0.01 m away; outside its times there is nothing to

@@ -72,6 +72,9 @@ TEST_F(Lay, BadInputIsNamed) {
             std::string::npos);
   EXPECT_NE(refusal("time [s],T [-]\n0,1\n").find("there are 2"), std::string::npos);
   EXPECT_NE(refusal("time [s],front_dense [m]\n0,nan\n").find("line 2"), std::string::npos);
+  EXPECT_NE(refusal("time [s],front_dense [m]\n0,1\n0,2\n").find("does not ascend from row 1 to row 2"),
+            std::string::npos);
+  EXPECT_NE(refusal("time [s],front_dense [m]\n1,1\n0,2\n").find("does not ascend"), std::string::npos);
   EXPECT_NE(refusal("time [ms],front_dense [m]\n0,1\n").find("expected 's'"), std::string::npos);
 }
 

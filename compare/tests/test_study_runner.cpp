@@ -1,10 +1,15 @@
 // Runs of the study by a stand-in for the program: what fails, hangs or leaves nothing behind is a point, not
 // an end.
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "compare/study/runner.hpp"
 #include "solver/tests/temporary_directory.hpp"
@@ -89,6 +94,33 @@ TEST_F(StudyRunner, ARunThatWasStoppedFromOutsideIsNoResult) {
     EXPECT_THROW(made.run(job_), std::runtime_error) << body;
     EXPECT_FALSE(made.has(job_)) << body;
   }
+}
+
+// Whoever waits for a run may be killed; the run must not go on, and hold its directory, without it.
+TEST_F(StudyRunner, NoRunOutlivesTheStudy) {
+  const fs::path number = root_ / "number";
+  const pid_t study = fork();
+  if (study == 0) {
+    runner("echo $$ > " + number.string() + "; exec sleep 60").run(job_);
+    _exit(0);
+  }
+  pid_t run = 0;
+  for (int i = 0; i < 500 && run == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::ifstream(number) >> run;
+  }
+  ASSERT_GT(run, 0);
+  kill(study, SIGKILL);
+  waitpid(study, nullptr, 0);
+  bool ended = false;
+  for (int i = 0; i < 500 && !ended; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::ifstream state("/proc/" + std::to_string(run) + "/stat");
+    std::string id, name, letter;
+    ended = !(state >> id >> name >> letter) || letter == "Z";
+  }
+  EXPECT_TRUE(ended);
+  if (!ended) kill(run, SIGKILL);
 }
 
 TEST_F(StudyRunner, ARunThatCrashesHasFailed) {

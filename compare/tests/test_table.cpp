@@ -289,5 +289,28 @@ TEST(Table, AMissingFileIsNamed) {
   }
 }
 
+// Nothing to check is no success.
+TEST(Table, WithoutAnyCheckItIsRefused) {
+  EXPECT_NE(message_of("").find("there is no [[check]]"), std::string::npos);
+  EXPECT_NE(message_of("[[run]]\nid = \"s1\"\n").find("there is no [[check]]"), std::string::npos);
+}
+
+// Names become parts of paths.
+TEST(Table, ANameLeadsOutOfNowhere) {
+  for (const char* name : {"../s1", "..", ".", "/tmp/s1", "a/b", "-x", "s1 ", "s1\\n"})
+    for (const std::string& run :
+         {"id = \"" + std::string(name) + "\"\n", "id = \"s1\"\ncase = \"" + std::string(name) + "\"\n"})
+      EXPECT_NE(message_of("[[run]]\n" + run).find("a name has letters"), std::string::npos) << run;
+}
+
+TEST(Table, ADirectoryIsNoTable) {
+  try {
+    read_table(GRANVOF_CASES_DIR);
+    FAIL();
+  } catch (const TableError& error) {
+    EXPECT_NE(std::string(error.what()).find("it is a directory"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace granvof::compare

@@ -5,9 +5,11 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "compare/input/bands.hpp"
 #include "compare/study/target.hpp"
+#include "compare/tests/files_stated.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/temporary_directory.hpp"
@@ -31,12 +33,14 @@ class Records : public testing::Test {
   }
   // A front that runs `reach` from 0.03 m within 0.2 s.
   void record(const std::string& directory, double reach) {
-    write(directory + "/record.json",
-          R"({"case_hash": ")" + scene_.reference_hash +
-              R"(", "core_seconds": 50, "monitors": {"preparation_core_seconds": 15}})");
-    write(directory + "/series.csv", "time [s],front_dense [m]\n0,0.03\n0.1," +
-                                         std::to_string(0.03 + 0.5 * reach) + "\n0.2," +
-                                         std::to_string(0.03 + reach) + "\n");
+    const std::string series = "time [s],front_dense [m]\n0,0.03\n0.1," + std::to_string(0.03 + 0.5 * reach) +
+                               "\n0.2," + std::to_string(0.03 + reach) + "\n";
+    const nlohmann::json json{{"case_hash", scene_.reference_hash},
+                              {"core_seconds", 50},
+                              {"monitors", {{"preparation_core_seconds", 15}}},
+                              {"files", test::files_stated(series)}};
+    write(directory + "/record.json", json.dump());
+    write(directory + "/series.csv", series);
   }
   const test::TemporaryDirectory directory_;
   const fs::path& root_ = directory_.path();
@@ -51,7 +55,16 @@ TEST_F(Records, BandsOfSeedGridAndSliceAreTakenTogether) {
   EXPECT_FALSE(read.of("canary", "p_base [Pa]"));
   write("bands.json", "{}");
   EXPECT_THROW(read_bands(root_), OutputError);
-  write("bands.json", R"([{"against": "seed2", "column": "p_base [Pa]"}])");
+  for (const char* damaged :
+       {"", "[]", "[1]", R"([{"against": "seed2", "column": "p_base [Pa]"}])",
+        R"([{"scene": "canary", "against": "seed2", "column": "p_base [Pa]", "rms": "1"}])",
+        R"([{"scene": "canary", "against": "seed2", "column": "p_base [Pa]", "rms": -1}])",
+        R"([{"scene": "canary", "against": 2, "column": "p_base [Pa]", "rms": 1}])"}) {
+    write("bands.json", damaged);
+    EXPECT_THROW(read_bands(root_), OutputError) << damaged;
+  }
+  fs::remove(root_ / "bands.json");
+  fs::create_directory(root_ / "bands.json");
   EXPECT_THROW(read_bands(root_), OutputError);
 }
 

@@ -1,5 +1,4 @@
 """Plan, state and making of records, without running demvof."""
-import hashlib
 import json
 import subprocess
 import sys
@@ -140,16 +139,6 @@ def test_a_record_of_an_earlier_version_is_slimmed_once_and_keeps_its_provenance
     assert sorted(once) == sorted(slim)
     assert not recorder.slim_record(folder)
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == once
-
-
-def test_a_record_states_the_files_that_it_keeps(tmp_path):
-    folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
-    files = json.loads((folder / "record.json").read_text())["files"]
-    assert files["series.csv"]["rows"] == 2 and files["series.csv"]["end"] == 1.0
-    assert files["series.csv"]["columns"] == ["time [s]", "slope [deg]"]
-    assert files["fields.h5"]["instants"] == recorder.INSTANTS_KEPT
-    for name, facts in files.items():
-        assert facts["sha256"] == hashlib.sha256((folder / name).read_bytes()).hexdigest(), name
 
 
 def test_a_run_that_blew_up_leaves_no_record(tmp_path):

@@ -101,6 +101,9 @@ void overwrite_file(const std::filesystem::path& path, std::string_view content)
 }
 
 std::string read_file(const std::filesystem::path& path) {
+  std::error_code unknown;
+  // A stream opens a directory and reads nothing from it.
+  if (std::filesystem::is_directory(path, unknown)) throw OutputError("read", path, reason(EISDIR));
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw OutputError("read", path, reason(errno));

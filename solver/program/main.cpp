@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -168,7 +169,10 @@ int main(int argc, char** argv) {
   keep_standard_streams_taken();
   send_messages_to_stderr();
   try {
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)  // what nobody could read was not said
+      throw std::runtime_error("cannot write to standard output");
+    return code;
   } catch (const granvof::CaseError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;

@@ -1,0 +1,1 @@
+"""What ci/faults tries, and how."""

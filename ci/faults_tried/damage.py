@@ -1,0 +1,81 @@
+"""Ways in which a file is damaged. Each takes its path, where the whole file stands, and chance."""
+
+import os
+import shutil
+
+
+def empty(path, chance):
+    path.write_bytes(b"")
+
+
+def missing(path, chance):
+    path.unlink()
+
+
+def directory(path, chance):
+    path.unlink()
+    path.mkdir()
+
+
+def half(path, chance):
+    path.write_bytes(path.read_bytes()[:path.stat().st_size // 2])
+
+
+def last_byte(path, chance):
+    path.write_bytes(path.read_bytes()[:-1])
+
+
+def zeros(path, chance):
+    path.write_bytes(bytes(path.stat().st_size))
+
+
+def foreign(path, chance):
+    """Another program's file of another kind."""
+    path.write_bytes(b'{"format": "something else", "results": 3}\n')
+
+
+def binary(path, chance):
+    path.write_bytes(chance.randbytes(4096))
+
+
+def unreadable_text(path, chance):
+    path.write_bytes(b"\xff\xfe\x00\xd8" + path.read_bytes())
+
+
+def fifo(path, chance):
+    path.unlink()
+    os.mkfifo(path)
+
+
+def endless(path, chance):
+    path.unlink()
+    path.symlink_to("/dev/zero")
+
+
+def flipped(path, chance):
+    """One bit of one byte."""
+    content = bytearray(path.read_bytes())
+    content[chance.randrange(len(content))] ^= 1 << chance.randrange(8)
+    path.write_bytes(content)
+
+
+def line_out(path, chance):
+    lines = path.read_bytes().splitlines(keepends=True)
+    if len(lines) > 2:
+        del lines[chance.randrange(1, len(lines) - 1)]
+    path.write_bytes(b"".join(lines))
+
+
+def line_twice(path, chance):
+    lines = path.read_bytes().splitlines(keepends=True)
+    at = chance.randrange(len(lines))
+    path.write_bytes(b"".join(lines[:at + 1] + lines[at:]))
+
+
+BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text,
+                                         fifo, endless, flipped, line_out, line_twice)}
+
+
+def copy_of(source, target):
+    shutil.copytree(source, target, symlinks=True)
+    return target
