@@ -96,7 +96,7 @@ def test_the_table_is_large_enough():
 
 
 @pytest.mark.skipif(not (ROOT / "build/release/compare/granvof-compare").exists(), reason="the programs are not built")
-@pytest.mark.parametrize("kind", ["outputs", "locales"])
+@pytest.mark.parametrize("kind", ["outputs", "locales", "damaged_runs"])
 def test_a_sample_is_held(kind):
     done = subprocess.run([FAULTS, "--sample", "--only", kind], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
