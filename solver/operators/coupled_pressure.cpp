@@ -83,9 +83,10 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
       const double together = open[i] / (m_s + m_c);
       const double inv_det = open[i] / (grains ? m_s * m_c + b[i] * (m_s + m_c) : 1.0);
       s_c[i] = grains ? inv_det * ((m_c + b[i]) * f_s + b[i] * f_c) : together;
-      s_s[i] = grains ? inv_det * (m_c + b[i]) : 0.0;
+      const bool pushed = f_s >= solid_that_counts;
+      s_s[i] = pushed ? inv_det * (m_c + b[i]) : 0.0;
       c_c[i] = grains ? inv_det * (b[i] * f_s + (m_s + b[i]) * f_c) : together;
-      c_s[i] = grains ? inv_det * b[i] : 0.0;
+      c_s[i] = pushed ? inv_det * b[i] : 0.0;
     });
     if (d == 1 && grid_.open_top) {
       // grains stop at the open top, the fluid passes

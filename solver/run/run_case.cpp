@@ -102,7 +102,8 @@ class Run {
   void step_back();  // to the state before the last step
   void checkpoint();
   RunProgress progress() const;
-  int finish(ExitState state, const std::string& reason);
+  enum class LastStep { kept, undone };
+  int finish(ExitState state, const std::string& reason, LastStep last_step = LastStep::kept);
   int give_up(const std::string& reason);
   std::string what_is_left() const;
 
@@ -236,11 +237,10 @@ void Run::checkpoint() {
   last_checkpoint_ = std::chrono::steady_clock::now();
 }
 
-int Run::finish(ExitState state, const std::string& reason) {
+int Run::finish(ExitState state, const std::string& reason, LastStep last_step) {
   progress_line_.clear();
   const RunProgress done = progress();
-  // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no end.
-  if (state == ExitState::finished) step_back();
+  if (last_step == LastStep::undone) step_back();
   writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, done), done);
   if (state != ExitState::finished) spdlog::error("{}: {}; {}", scene_.name, reason, what_is_left());
   writer_.finish(done, {state, reason});
@@ -282,8 +282,11 @@ int Run::loop() {
     write_output(next_, due_output(scene_.times, next_.time, now_.time));
     trouble_ = alarms_.check(now_, monitors_,
                              {counters_.steps, counters_.unconverged_friction, counters_.refused_steps});
-    if (!trouble_.empty()) return finish(ExitState::failed, trouble_);
-    if (now_.time >= scene_.times.end) return finish(ExitState::finished, {});
+    // The state that raised the alarm is no good one.
+    if (!trouble_.empty()) return finish(ExitState::failed, trouble_, LastStep::undone);
+    // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no
+    // end.
+    if (now_.time >= scene_.times.end) return finish(ExitState::finished, {}, LastStep::undone);
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint_;
     if (scene_.times.checkpoint_interval > 0.0 && since.count() >= scene_.times.checkpoint_interval)
       checkpoint();

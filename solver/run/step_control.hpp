@@ -1,12 +1,10 @@
 // Size of the next time step.
 #pragma once
 
+#include "solver/operators/mixture.hpp"
 #include "solver/run/state.hpp"
 
 namespace granvof {
-
-// Solid fraction below which u_s neither bounds a step nor has it refused.
-inline constexpr double solid_that_counts = 1e-3;
 
 class StepControl {
  public:
