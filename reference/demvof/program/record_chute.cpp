@@ -8,6 +8,7 @@
 #include "reference/demvof/bulk_friction/chute.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/digest.hpp"
 #include "solver/output/run_record.hpp"
 
 namespace demvof {
@@ -18,14 +19,27 @@ namespace {
 const std::vector<double> slopes{26, 25,   24, 23,   22, 21,   20.5, 20, 19.5,
                                  19, 18.5, 18, 17.5, 17, 16.5, 16,   15, 14};
 
+const std::vector<std::string> columns{"time [s]",     "slope [deg]",        "inertial_number [-]",
+                                       "friction [-]", "solid_fraction [-]", "mean_speed [m/s]"};
+
 std::string series_text(const ChuteResult& result) {
-  std::string text =
-      "time [s],slope [deg],inertial_number [-],friction [-],solid_fraction [-],mean_speed [m/s]\n";
+  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
   for (const ChutePoint& p : result.points) {
     text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", p.time, p.slope,
                         p.friction.inertial_number, p.friction.friction, p.solid_fraction, p.mean_speed);
   }
   return text;
+}
+
+granvof::FilesWritten files_of(const ChuteResult& result, const std::string& series) {
+  granvof::FilesWritten files;
+  files.series.rows = static_cast<std::int64_t>(result.points.size());
+  if (!result.points.empty()) files.series.end = result.points.back().time;
+  files.series.columns = columns;
+  granvof::Digest digest;
+  digest.add(series);
+  files.series.sha256 = digest.hex();
+  return files;
 }
 
 }  // namespace
@@ -63,11 +77,12 @@ int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
   if (result.stopped_at) progress.monitors["stopped_at_deg"] = *result.stopped_at;
 
   std::filesystem::create_directories(options.out);
-  granvof::write_file_atomically(options.out / "series.csv", series_text(result));
+  const std::string series = series_text(result);
+  granvof::write_file_atomically(options.out / "series.csv", series);
   const granvof::RunRecord record{{"demvof", options.command, 1, 1}, date, {}};
-  granvof::write_file_atomically(
-      options.out / "run.json",
-      granvof::run_record_text(scene, record, progress, {granvof::ExitState::finished, ""}));
+  granvof::write_file_atomically(options.out / "run.json",
+                                 granvof::run_record_text(scene, record, progress, files_of(result, series),
+                                                          {granvof::ExitState::finished, ""}));
   fmt::print("mu_s {:.4f} +- {:.4f}, mu_2 {:.4f} +- {:.4f}, I_0 {:.4f} +- {:.4f}; {} points, rms {:.4f}\n",
              fit.law.at_rest, fit.band.at_rest, fit.law.limit, fit.band.limit, fit.law.scale, fit.band.scale,
              points.size(), fit.rms);

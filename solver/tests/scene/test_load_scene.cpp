@@ -54,7 +54,8 @@ TEST(LoadScene, CountsTimesInColumnUnits) {
   EXPECT_DOUBLE_EQ(scene.times.unit, unit);
   EXPECT_DOUBLE_EQ(scene.times.end, 10 * unit);
   ASSERT_EQ(scene.times.row_times.size(), 201U);  // time.end / 200
-  for (std::size_t k = 0; k < 201; ++k) EXPECT_DOUBLE_EQ(scene.times.row_times[k], 0.05 * unit * k);
+  for (int k = 0; k < 201; ++k)
+    EXPECT_DOUBLE_EQ(scene.times.row_times[static_cast<std::size_t>(k)], 0.05 * unit * k);
   EXPECT_EQ(scene.times.field_times, (std::vector<double>{0.0, unit, 5 * unit, 10 * unit}));
 }
 

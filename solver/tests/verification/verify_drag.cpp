@@ -193,7 +193,9 @@ volume_tolerance = 1e-12
   const double drag = closures::with_drag_law(run.scene.model.drag_law, [&](auto named) {
     return named(f_s, u, run.scene.liquid, run.scene.solid.diameter);
   });
-  if (run.scene.model.drag_law == DragLaw::paper) EXPECT_NEAR(drag, ergun, 1e-12 * ergun);
+  if (run.scene.model.drag_law == DragLaw::paper) {
+    EXPECT_NEAR(drag, ergun, 1e-12 * ergun);
+  }
   const double theory = -drag * u / (1.0 - f_s) - 1000.0 * rate;
   report("superficial_speed", u * (1.0 - f_s));
   report("reynolds", 1000.0 * u * b.diameter / 1e-3);
