@@ -17,6 +17,7 @@
 #include "compare/metrics/period.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
+#include "compare/metrics/toe_drift.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -66,6 +67,12 @@ Measured flat_top(const Run& run, const Parameters& p, const FindRun&) {
 
 Measured slope_drift(const Run& run, const Parameters& p, const FindRun&) {
   return measured(slope_change(run.curve("slope"), *p.window), "no slope at the ends of the window");
+}
+
+Measured toe_drift(const Run& run, const Parameters& p, const FindRun&) {
+  const auto move = largest_move(run.curve("front_quantile"), *p.window);
+  if (!move) return {std::nullopt, "undefined: no front at the ends of the window"};
+  return {*move / column_of(run).height, ""};
 }
 
 Measured base_pressure_peak(const Run& run, const Parameters& p, const FindRun&) {
@@ -254,6 +261,9 @@ constexpr std::array table{
                 deposit_height},
     MetricEntry{"slope_drift", "deg", "slope at the end of the window less that at its begin", window_only,
                 slope_drift},
+    MetricEntry{"toe_drift", "-",
+                "largest move over h0, in the window, of the place that 99.5 % of the grains have not passed",
+                window_only, toe_drift},
     MetricEntry{"base_pressure_peak", "Pa",
                 "excess pore pressure at the base, the value of largest magnitude", window_only,
                 base_pressure_peak},

@@ -10,6 +10,7 @@
 #include "compare/metrics/line_fit.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
+#include "compare/metrics/toe_drift.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -147,6 +148,14 @@ TEST(Conservation, ErrorIsTheLargestAtAnyTime) {
 TEST(BedSlope, DriftIsEndLessBegin) {
   EXPECT_NEAR(*slope_change({{0.0, 10.0, 40.0}, {14.0, 12.5, 12.0}}, {10.0, 40.0}), -0.5, 1e-15);
   EXPECT_FALSE(slope_change({{0.0, 10.0}, {14.0, 12.5}}, {10.0, 40.0}));
+}
+
+TEST(ToeDrift, IsTheLargestMoveAtAnyTimeOfTheWindow) {
+  const Curve toe{{0.0, 4.0, 10.0, 20.0, 40.0}, {0.20, 0.25, 0.27, 0.24, 0.26}};
+  EXPECT_NEAR(*largest_move(toe, {4.0, 40.0}), 0.02, 1e-15);   // out and back counts
+  EXPECT_NEAR(*largest_move(toe, {10.0, 20.0}), 0.03, 1e-15);  // so does a toe that draws back
+  EXPECT_NEAR(*largest_move(toe, {4.0, 7.0}), 0.01, 1e-15);    // ends between samples
+  EXPECT_FALSE(largest_move(toe, {4.0, 50.0}));
 }
 
 TEST(DamBreak, ScalesLikeMartinAndMoyce) {

@@ -12,6 +12,13 @@
 // claimant beside kinetic and dense-flow pressure: P_s^EF = max(P_s^D, P_s^W) - P_s^K in (14); friction (17)
 // follows.
 //
+// Such a cell has a free face, above its grains (below those that press upwards): their surface lies inside
+// the cell, and the velocity of that face is not theirs but that of the few grains which fall on them or hang
+// over the edge. It strains no grains: left in S of (17) it outruns the creep of the bed by orders, the law
+// yields to it, and the surface runs. So neither the normal strain of the cell nor the tilt of an edge by a
+// free face counts in S, and the stress of such an edge does no work on that face (friction_law.cpp;
+// Rheology::free_side says which cells).
+//
 // Own derivation; it vanishes with the grid, like the cells it is about.
 #pragma once
 

@@ -152,5 +152,51 @@ TEST(Convection, NoNewExtremumAtAStep) {
   }
 }
 
+// Few grains must not end a run: over ten cells a step no new extremum; where they count nothing changes.
+TEST(Convection, BoundedWhereGrainsDoNotCount) {
+  const double least = 1e-3, courant = 10.0;
+  for (const int dim : {2, 3}) {
+    for (const bool limited : {false, true}) {
+      Scene scene = unit_scene(dim, 8);
+      for (int d = 0; d < dim; ++d) make_periodic(scene, d);
+      Tank s(scene);
+      const FaceField u = s.random_faces(-1.0, 1.0);
+      const double dt = courant * s.grid.h[0];
+      Field fraction(s.grid);
+      s.each_cell(
+          [&](int i, int, int, std::ptrdiff_t c) { fraction[c] = i % 2 == 0 ? least : 0.99 * least; });
+      double beyond = 0.0;
+      for (int d = 0; d < dim; ++d) {
+        Field free(s.grid), bounded(s.grid);
+        convective_acceleration(s.grid, u, d, s.grid.all_cells(), limited, free);
+        bounded = free;
+        bound_convection(s.grid, u, d, s.grid.all_cells(), dt, fraction, least, bounded);
+        const double lowest = s.smallest(u[d]), highest = s.largest(u[d]);
+        s.each_cell([&](int i, int, int, std::ptrdiff_t c) {
+          if (i % 2 == 0) {
+            EXPECT_EQ(bounded[c], free[c]);
+            return;
+          }
+          EXPECT_GE(u[d][c] + dt * bounded[c], lowest - 1e-13);
+          EXPECT_LE(u[d][c] + dt * bounded[c], highest + 1e-13);
+          beyond = std::fmax(beyond, std::fabs(u[d][c] + dt * free[c]));
+        });
+      }
+      EXPECT_GT(beyond, 5.0);  // without the bound
+    }
+  }
+}
+
+// Slow grains are not slowed further: below half a cell a step the acceleration is what it was.
+TEST(Convection, BoundLeavesShortStepsAlone) {
+  Tank s(periodic_square(8));
+  const FaceField u = s.random_faces(-1.0, 1.0);
+  Field free(s.grid), bounded(s.grid);
+  convective_acceleration(s.grid, u, 0, s.grid.all_cells(), false, free);
+  bounded = free;
+  bound_convection(s.grid, u, 0, s.grid.all_cells(), 0.2 * s.grid.h[0], Field(s.grid), 1e-3, bounded);
+  s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_EQ(bounded[c], free[c]); });
+}
+
 }  // namespace
 }  // namespace granvof

@@ -5,51 +5,17 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "solver/operators/friction.hpp"
-#include "solver/tests/operators/tank.hpp"
+#include "solver/tests/operators/friction_bed.hpp"
 
 namespace granvof {
 namespace {
 
+using test::Bed;
 using test::box_scene;
+using test::Layer;
 using test::make_periodic;
+using test::step;
 using test::Tank;
-
-struct Bed {
-  explicit Bed(Scene given)
-      : s(std::move(given)),
-        aperture(s.grid, s.scene),
-        inertia(s.grid),
-        rheology(s.grid),
-        mass(s.grid),
-        rhs(s.grid),
-        u_strain(s.grid),
-        u(s.grid),
-        f_s(s.grid, 0.5),
-        friction(s.grid, s.scene, s.boundary, s.communicator) {}
-  void fill() {
-    s.boundary.fill_scalar(f_s);
-    inertia.update(s.grid, s.scene, f_s, Field(s.grid, 1.0));
-    s.boundary.fill_scalar(rheology.kinetic_viscosity);
-    s.boundary.fill_scalar(rheology.enduring_pressure);
-  }
-  // The operator stops at a residual of 1e-9 m/s over the face's mass, or at 1e-6 of the first one: a few
-  // calls, each from the last one's answer, reach the former.
-  void solve() {
-    fill();
-    s.boundary.fill_velocity(u_strain, Phase::solid);
-    linear::Report report;
-    for (int i = 0; i < 6; ++i) report = friction.solve(mass, rhs, inertia, aperture, rheology, u_strain, u);
-    EXPECT_TRUE(report.converged) << report.initial << ' ' << report.final;
-  }
-  Tank s;
-  Aperture aperture;
-  FaceInertia inertia;
-  Rheology rheology;
-  FaceField mass, rhs, u_strain, u;
-  Field f_s;
-  Friction friction;
-};
 
 // Half of sum V (2 mu sum (du_d/dx_d)^2 + lambda (div u)^2 + mu_edge (du_d/dx_e + du_e/dx_d)^2): one
 // quadratic form a strain, each a short row over the unknown faces plus a constant from the known ones.
@@ -152,8 +118,6 @@ class Energy {
   Eigen::VectorXd b_;
 };
 
-constexpr double step = 1e-3;  // [s]
-
 // Masses and forces that move the grains at about 1 m/s.
 void load_randomly(Bed& bed) {
   for (int d = 0; d < bed.s.grid.dim; ++d)
@@ -235,23 +199,6 @@ TEST_P(FrictionAgainstDense, ContactFrictionBesideEmptyCells) {
 INSTANTIATE_TEST_SUITE_P(Boxes, FrictionAgainstDense,
                          ::testing::Values(std::pair{2, false}, std::pair{2, true}, std::pair{3, false},
                                            std::pair{3, true}));
-
-// A layer, periodic in x, loaded in x alone.
-struct Layer : Bed {
-  explicit Layer(const Scene& scene) : Bed(scene) {}
-  static Scene between(WallKind lower, WallKind upper) {
-    Scene scene = box_scene(2, {4, 16, 1}, {0.04, 0.16, 1.0}, WallKind::slip);
-    make_periodic(scene, 0);
-    scene.sides[bottom].solid.kind = lower;
-    scene.sides[top].solid.kind = upper;
-    return scene;
-  }
-  void set(double mass_value, double force) {
-    mass[0].fill(mass_value);
-    mass[1].fill(mass_value);
-    s.each(s.grid.inner_faces(0), [&](int, int, int, std::ptrdiff_t c) { rhs[0][c] = force; });
-  }
-};
 
 TEST(Friction, RigidTranslationInASlipBoxIsNotResisted) {
   Layer layer(Layer::between(WallKind::slip, WallKind::slip));
@@ -365,43 +312,6 @@ TEST(Friction, SlipWallsTakeNoTangentialForceAndNoSlipWallsDo) {
       EXPECT_NEAR(stress, 0.0, 1e-5 * driven * 0.16);
     } else {
       EXPECT_GT(stress, 0.1 * driven * 0.16);
-    }
-  }
-}
-
-// What the granular temperature is given: per cell, mu^K G^2 under a shear G, and nothing where the stress
-// was cut, beside a face without grains.
-TEST(Friction, KineticPowerOfEachCell) {
-  Scene scene = box_scene(2, {4, 6, 1}, {0.4, 0.6, 1.0});
-  make_periodic(scene, 0);
-  scene.model.contact_friction = false;
-  const double rate = 3.0, mu = 0.2;
-  for (const bool empty_top : {false, true}) {
-    Bed bed(scene);
-    bed.rheology.kinetic_viscosity.fill(mu);
-    if (empty_top)
-      bed.s.each_cell([&](int, int j, int, std::ptrdiff_t c) {
-        if (j >= 4) bed.f_s[c] = bed.rheology.kinetic_viscosity[c] = 0.0;
-      });
-    bed.u = bed.s.faces({[=](const Vec3& x) { return x[1] < 0.4 ? rate * x[1] : 10.0; },
-                         [](const Vec3&) { return 0.0; }, [](const Vec3&) { return 0.0; }});
-    bed.u_strain = bed.u;
-    bed.fill();
-    for (int d = 0; d < 2; ++d)
-      bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { bed.mass[d][c] = 1e9; });
-    bed.rhs = bed.u;
-    for (int d = 0; d < 2; ++d)
-      bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { bed.rhs[d][c] *= 1e9; });
-    bed.solve();  // so heavy that nothing moves
-    Field kinetic(bed.s.grid);
-    const Friction::Power power = bed.friction.power(bed.mass, bed.u, bed.u, kinetic);
-    EXPECT_NEAR(power.kinetic, bed.s.total(kinetic) * bed.s.grid.cell_volume, 1e-12 * power.kinetic);
-    const auto at = [&](int j) { return kinetic[bed.s.grid.cells.index(1, j, 0)]; };
-    EXPECT_NEAR(at(1), mu * rate * rate, 1e-6 * mu * rate * rate);
-    EXPECT_NEAR(at(2), mu * rate * rate, 1e-6 * mu * rate * rate);
-    if (empty_top) {
-      EXPECT_NEAR(at(3), 0.5 * mu * rate * rate, 1e-6 * mu * rate * rate);  // its upper edges are cut
-      EXPECT_EQ(at(4), 0.0);
     }
   }
 }

@@ -1,0 +1,51 @@
+// What the solid stress spends, cell by cell and in all.
+#include <gtest/gtest.h>
+
+#include "solver/tests/operators/friction_bed.hpp"
+
+namespace granvof {
+namespace {
+
+using test::Bed;
+using test::box_scene;
+using test::make_periodic;
+
+// What the granular temperature is given: per cell, mu^K G^2 under a shear G, and nothing where the stress
+// was cut, beside a face without grains.
+TEST(Friction, KineticPowerOfEachCell) {
+  Scene scene = box_scene(2, {4, 6, 1}, {0.4, 0.6, 1.0});
+  make_periodic(scene, 0);
+  scene.model.contact_friction = false;
+  const double rate = 3.0, mu = 0.2;
+  for (const bool empty_top : {false, true}) {
+    Bed bed(scene);
+    bed.rheology.kinetic_viscosity.fill(mu);
+    if (empty_top)
+      bed.s.each_cell([&](int, int j, int, std::ptrdiff_t c) {
+        if (j >= 4) bed.f_s[c] = bed.rheology.kinetic_viscosity[c] = 0.0;
+      });
+    bed.u = bed.s.faces({[=](const Vec3& x) { return x[1] < 0.4 ? rate * x[1] : 10.0; },
+                         [](const Vec3&) { return 0.0; }, [](const Vec3&) { return 0.0; }});
+    bed.u_strain = bed.u;
+    bed.fill();
+    for (int d = 0; d < 2; ++d)
+      bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { bed.mass[d][c] = 1e9; });
+    bed.rhs = bed.u;
+    for (int d = 0; d < 2; ++d)
+      bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { bed.rhs[d][c] *= 1e9; });
+    bed.solve();  // so heavy that nothing moves
+    Field kinetic(bed.s.grid);
+    const Friction::Power power = bed.friction.power(bed.mass, bed.u, bed.u, kinetic);
+    EXPECT_NEAR(power.kinetic, bed.s.total(kinetic) * bed.s.grid.cell_volume, 1e-12 * power.kinetic);
+    const auto at = [&](int j) { return kinetic[bed.s.grid.cells.index(1, j, 0)]; };
+    EXPECT_NEAR(at(1), mu * rate * rate, 1e-6 * mu * rate * rate);
+    EXPECT_NEAR(at(2), mu * rate * rate, 1e-6 * mu * rate * rate);
+    if (empty_top) {
+      EXPECT_NEAR(at(3), 0.5 * mu * rate * rate, 1e-6 * mu * rate * rate);  // its upper edges are cut
+      EXPECT_EQ(at(4), 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace granvof
