@@ -17,6 +17,7 @@
 #include "compare/metrics/period.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
+#include "compare/metrics/series_difference.hpp"
 #include "compare/metrics/toe_drift.hpp"
 
 namespace granvof::compare {
@@ -221,6 +222,24 @@ Measured fluid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
   return measured(maximum(clip(run.curve("u_c_max"), *p.window)), "no speed in the window");
 }
 
+Measured solid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(maximum(clip(run.curve("u_s_dense_max"), *p.window)), "no dense bed in the window");
+}
+
+// --- the same run otherwise stated ------------------------------------------------------------------------
+
+Measured difference_of_series(const Run& run, const Parameters& p, const FindRun& find) {
+  const Run* other = find(*p.against);
+  if (!other) return {std::nullopt, fmt::format("the run '{}' cannot be compared", *p.against)};
+  const auto found = series_difference(run.series, run.scene, other->series, other->scene);
+  if (!found) return {std::nullopt, "undefined: the two have not the same columns and times"};
+  const std::string where =
+      found->column.empty() ? "" : fmt::format("in {} at T = {:.4g}", found->column, found->time);
+  return {found->largest, where};
+}
+
+// --- energy and cost ---------------------------------------------------------------------------------------
+
 Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
   return measured(closure_error(energy_budget(run), run.facts.number("energy_turnover")),
                   "no energy budget in the series or in run.json");
@@ -312,6 +331,12 @@ constexpr std::array table{
                 liquid_speed_max},
     MetricEntry{"fluid_speed_max", "m/s", "largest speed of the fluid, gas included", window_only,
                 fluid_speed_max},
+    MetricEntry{"solid_speed_max", "m/s", "largest solid speed where f_s >= 0.95 f_s,min", window_only,
+                solid_speed_max},
+    MetricEntry{"series_difference", "-",
+                "largest difference of any column of series.csv from that of another run, at the rows both "
+                "have, each in its own scene's scales",
+                Needs{.against = true}, difference_of_series},
     MetricEntry{
         "energy_closure", "-",
         "largest difference between the change of all energy and the sum of its parts, over the energy "

@@ -44,7 +44,9 @@ PlannedRun read_run(const TomlEntry& entry) {
   if (run.beside && run.set.empty()) entry.fail("beside", "without 'set' it is the run it stands beside");
   run.case_name = entry.has("case") ? entry.text("case") : run.beside.value_or(run.id);
   require_name(entry, "id", run.id);
-  require_name(entry, "case", run.case_name);
+  const std::size_t slash = run.case_name.find('/');  // it may be in a folder of cases
+  if (slash != std::string::npos) require_name(entry, "case", run.case_name.substr(0, slash));
+  require_name(entry, "case", run.case_name.substr(slash == std::string::npos ? 0 : slash + 1));
   if (run.beside) require_name(entry, "beside", *run.beside);
   if (entry.has("frequency")) {
     if (!run.beside) entry.fail("frequency", "only a run beside another has one: its checks are that run's");

@@ -297,10 +297,24 @@ TEST(Table, WithoutAnyCheckItIsRefused) {
 
 // Names become parts of paths.
 TEST(Table, ANameLeadsOutOfNowhere) {
-  for (const char* name : {"../s1", "..", ".", "/tmp/s1", "a/b", "-x", "s1 ", "s1\\n"})
-    for (const std::string& run :
-         {"id = \"" + std::string(name) + "\"\n", "id = \"s1\"\ncase = \"" + std::string(name) + "\"\n"})
-      EXPECT_NE(message_of("[[run]]\n" + run).find("a name has letters"), std::string::npos) << run;
+  const auto expect_refused = [](const std::string& key_and_name) {
+    EXPECT_NE(message_of("[[run]]\n" + key_and_name + "\n").find("a name has letters"), std::string::npos)
+        << key_and_name;
+  };
+  for (const std::string name : {"../s1", "..", ".", "/tmp/s1", "-x", "s1 ", "s1\\n"}) {
+    expect_refused("id = \"" + name + "\"");
+    expect_refused("id = \"s1\"\ncase = \"" + name + "\"");
+  }
+  expect_refused("id = \"a/b\"");  // a case may be in a folder of cases, and no deeper
+  for (const std::string name : {"a/", "a/..", "a/b/c", "a//b", "./a"})
+    expect_refused("id = \"s1\"\ncase = \"" + name + "\"");
+}
+
+TEST(Table, ACaseMayBeInAFolder) {
+  const Table table = read_table(GRANVOF_CASES_DIR "/../compare/checks.toml");
+  const auto found = std::ranges::find(table.runs, "column-paper", &PlannedRun::id);
+  ASSERT_NE(found, table.runs.end());
+  EXPECT_EQ(found->case_name, "invariance/column");
 }
 
 TEST(Table, ADirectoryIsNoTable) {
