@@ -9,7 +9,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SAMPLE = 12  # tries of an entry in a sample
+SAMPLE = 4  # tries of an entry in a sample
 LONGEST_MESSAGE = 2000  # characters
 PATIENCE = 60.0  # seconds for a program that has nothing to compute
 

@@ -18,7 +18,11 @@ def directory(path, chance):
 
 
 def half(path, chance):
-    path.write_bytes(path.read_bytes()[:path.stat().st_size // 2])
+    """Cut in the middle; of a table behind the next "=", where no whole table can end."""
+    content = path.read_bytes()
+    middle = len(content) // 2
+    equals = content.find(b" = ", middle) if path.suffix == ".toml" else -1
+    path.write_bytes(content[:middle if equals < 0 else equals + 3])
 
 
 def last_byte(path, chance):

@@ -7,7 +7,7 @@ import time
 
 from faults_tried import damage
 from faults_tried.bench import TableError
-from faults_tried.runs import SmallRun, not_refused, tree_of
+from faults_tried.runs import SmallRun, not_refused, same_content, tree_of
 
 
 def two_in_one(bench, entry):
@@ -89,7 +89,7 @@ def damaged_resumes(bench, entry):
         before = {} if how in ("fifo", "endless") else tree_of(out)
         ended = run.go(out, "--resume", patience=60.0)
         if ended is not None and ended.returncode == 0:
-            why = run.same_bytes(out)
+            why = "" if same_content(out, run.whole) else run.same_bytes(out)
         else:
             why = not_refused(ended, before or tree_of(out), out)
         yield f"{name}, {how}", why
@@ -150,6 +150,6 @@ def check(bench, run, sets):
 
 
 def kept(out, key):
-    changes = [change["key"] for resumption in json.loads((out / "run.json").read_text())["resumptions"]
+    changes = [change["key"] for resumption in json.loads((out / "run.json").read_text()).get("resumptions", [])
                for change in resumption["changes"]]
     return "" if key in changes else f"run.json does not name it: {changes}"

@@ -5,7 +5,7 @@ import json
 import shutil
 
 from faults_tried import damage, directories, interrupted, scarce
-from faults_tried.bench import TableError, refused
+from faults_tried.bench import SAMPLE, TableError, refused
 
 
 def bad_values(bench, entry):
@@ -25,8 +25,10 @@ def damages_of(entry):
 
 
 def bad_files(bench, entry):
-    """A file that a command reads, damaged: refused."""
-    for name, way in damages_of(entry):
+    """A file that a command reads, damaged: refused. Of a program that was not built there is nothing to try."""
+    if "{demvof}" in entry["command"] and not bench.demvof.exists():
+        return
+    for name, way in bench.some(damages_of(entry), entry.get("sample", SAMPLE)):
         place = bench.place()
         file = place / (bench.root / entry["of"]).name
         shutil.copy(bench.root / entry["of"], file)
