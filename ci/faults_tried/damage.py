@@ -1,6 +1,7 @@
 """Ways in which a file is damaged. Each takes its path, where the whole file stands, and chance."""
 
 import os
+import re
 import shutil
 
 
@@ -18,11 +19,11 @@ def directory(path, chance):
 
 
 def half(path, chance):
-    """Cut in the middle; of a table behind the next "=", where no whole table can end."""
+    """Cut in the middle; TOML behind the next key's "=", where no whole table can end."""
     content = path.read_bytes()
     middle = len(content) // 2
-    equals = content.find(b" = ", middle) if path.suffix == ".toml" else -1
-    path.write_bytes(content[:middle if equals < 0 else equals + 3])
+    key = re.compile(rb"^\w+ = ", re.MULTILINE).search(content, middle) if path.suffix == ".toml" else None
+    path.write_bytes(content[:key.end() if key else middle])
 
 
 def last_byte(path, chance):
