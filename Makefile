@@ -71,9 +71,9 @@ nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)
 	ci/nightly
 
-faults: setup  ## bad input, kills, damaged files, full output (ci/faults.toml): tried and held
-	ci/build --programs release
-	ci/faults --build-dir $(RELEASE)
+faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/faults.toml): tried and held, for the report
+	ci/build --programs --reference=$(REFERENCE) release
+	ci/faults --build-dir $(RELEASE) --out "$(OUT)"
 
 bench: setup  ## performance of the parts
 	ci/build --benchmarks release

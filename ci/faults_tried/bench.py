@@ -2,13 +2,14 @@
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SAMPLE = 12  # tries of an entry in a sample
+SAMPLE = 4  # tries of an entry in a sample
 LONGEST_MESSAGE = 2000  # characters
 PATIENCE = 60.0  # seconds for a program that has nothing to compute
 
@@ -38,6 +39,7 @@ class Bench:
     sample: bool
     chance: random.Random = field(default_factory=lambda: random.Random(1))  # the same tries every time
     made: int = 0
+    seen: dict = field(default_factory=dict)  # what several tries have in common, by name
 
     def __post_init__(self):
         for program in (self.granvof, self.compare):
@@ -49,12 +51,16 @@ class Bench:
         return self.build / "solver/granvof"
 
     @property
+    def demvof(self):
+        return self.build / "reference/demvof/demvof"
+
+    @property
     def compare(self):
         return self.build / "compare/granvof-compare"
 
-    def some(self, tries):
+    def some(self, tries, sample=SAMPLE):
         tries = list(tries)
-        return self.chance.sample(tries, SAMPLE) if self.sample and len(tries) > SAMPLE else tries
+        return self.chance.sample(tries, sample) if self.sample and len(tries) > sample else tries
 
     def place(self):
         """A new empty directory."""
@@ -63,9 +69,42 @@ class Bench:
         directory.mkdir()
         return directory
 
+    def drop(self, directory):
+        """Removes what a try has made: a whole table's runs would fill a small disk."""
+        shutil.rmtree(directory.parent, ignore_errors=True)
+
+    def kept(self, name, make):
+        """A directory that `make` fills once."""
+        if name not in self.seen:
+            target = self.place() / "kept"
+            make(target)
+            self.seen[name] = target
+        return self.seen[name]
+
+    def shimmed(self, **settings):
+        """The environment of a program whose calls go through shim.c."""
+        if "shim" not in self.seen:
+            library = self.place() / "shim.so"
+            source = Path(__file__).with_name("shim.c")
+            built = subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], capture_output=True, text=True)
+            if built.returncode != 0:
+                raise TableError(f"{source} cannot be compiled: {built.stderr.strip()[:300]}")
+            self.seen["shim"] = library
+        return {"LD_PRELOAD": str(self.seen["shim"]), **settings}
+
+    def calls_of(self, run):
+        """How many calls that change files a run makes."""
+        name = "calls " + str(run.entry)
+        if name not in self.seen:
+            count = self.place() / "count"
+            run.go(count.parent / "run", environment=self.shimmed(FAULT_COUNT=str(count)))
+            self.seen[name] = int(count.read_text())
+        return self.seen[name]
+
     def filled(self, command, **places):
-        """The command of the table with {granvof}, {compare} and further places filled in."""
-        return [part.format(granvof=self.granvof, compare=self.compare, **places) for part in command]
+        """The command of the table with {granvof}, {compare}, {demvof}, {build} and further places filled in."""
+        return [part.format(granvof=self.granvof, compare=self.compare, demvof=self.demvof, build=self.build, **places)
+                for part in command]
 
     def call(self, command, **options):
         environment = {**os.environ, **options.pop("environment", {})}

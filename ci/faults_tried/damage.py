@@ -1,6 +1,7 @@
 """Ways in which a file is damaged. Each takes its path, where the whole file stands, and chance."""
 
 import os
+import re
 import shutil
 
 
@@ -18,7 +19,11 @@ def directory(path, chance):
 
 
 def half(path, chance):
-    path.write_bytes(path.read_bytes()[:path.stat().st_size // 2])
+    """Cut in the middle; TOML behind the next key's "=", where no whole table can end."""
+    content = path.read_bytes()
+    middle = len(content) // 2
+    key = re.compile(rb"^\w+ = ", re.MULTILINE).search(content, middle) if path.suffix == ".toml" else None
+    path.write_bytes(content[:key.end() if key else middle])
 
 
 def last_byte(path, chance):

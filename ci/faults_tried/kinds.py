@@ -3,14 +3,9 @@ second is empty where it is."""
 
 import json
 import shutil
-import signal
-import subprocess
-import time
 
-import h5py
-
-from faults_tried import damage
-from faults_tried.bench import TableError, refused
+from faults_tried import damage, directories, interrupted, scarce
+from faults_tried.bench import SAMPLE, TableError, refused
 
 
 def bad_values(bench, entry):
@@ -30,8 +25,10 @@ def damages_of(entry):
 
 
 def bad_files(bench, entry):
-    """A file that a command reads, damaged: refused."""
-    for name, way in damages_of(entry):
+    """A file that a command reads, damaged: refused. Of a program that was not built there is nothing to try."""
+    if "{demvof}" in entry["command"] and not bench.demvof.exists():
+        return
+    for name, way in bench.some(damages_of(entry), entry.get("sample", SAMPLE)):
         place = bench.place()
         file = place / (bench.root / entry["of"]).name
         shutil.copy(bench.root / entry["of"], file)
@@ -89,43 +86,6 @@ def damaged_runs(bench, entry):
         yield f"{name}, {how}", why
 
 
-def content_of(directory):
-    """Rows to the byte; fields to the bit, without the dates that HDF5 keeps beside them."""
-    fields = {}
-    with h5py.File(directory / "fields.h5") as file:
-        for instant, group in file.items():
-            fields[instant] = float(group.attrs["time"]), {name: group[name][()].tobytes() for name in group}
-    return (directory / "series.csv").read_bytes(), fields
-
-
-def kills(bench, entry):
-    """Killed at a random moment and resumed (or begun anew, where nothing was there to resume): the same files."""
-    whole = bench.place() / "run"
-    begun = time.monotonic()
-    ended = run_once(bench, entry, whole)
-    length = time.monotonic() - begun
-    if ended is None or ended.returncode != 0:
-        yield "the whole run", "it did not end"
-        return
-    sets = [word for override in entry.get("set", []) for word in ("--set", override)]
-    for number in range(entry["sample"] if bench.sample else entry["times"]):
-        out = bench.place() / "run"
-        command = [bench.granvof, "run", entry["case"], *sets, "--threads", "1", "--out", out]
-        running = subprocess.Popen([str(part) for part in command], cwd=bench.root, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(bench.chance.uniform(0.0, length))
-        running.send_signal(bench.chance.choice([signal.SIGKILL, signal.SIGTERM]))
-        running.wait()
-        resumable = (out / "checkpoint.h5").exists()
-        ended = bench.call([*command, *(["--resume"] if resumable else [])], patience=600)
-        why = ""
-        if ended is None or ended.returncode != 0:
-            why = "it did not go on: " + (ended.stderr.decode(errors="replace")[-200:] if ended else "no end")
-        elif content_of(out) != content_of(whole):
-            why = "its files are others"
-        yield f"kill {number + 1}", why
-
-
 def outputs(bench, entry):
     """Output that cannot be written: no success."""
     with open(entry["stdout"], "wb") as target:
@@ -143,4 +103,7 @@ def locales(bench, entry):
         yield f"{' '.join(entry['command'][:2])} in {locale}", "" if same and plain.returncode == 0 else "another output"
 
 
-KINDS = {kind.__name__: kind for kind in (bad_values, bad_files, damaged_runs, kills, outputs, locales)}
+KINDS = {kind.__name__: kind for kind in (
+    bad_values, bad_files, damaged_runs, interrupted.kills, interrupted.kills_at_calls, interrupted.failing_calls,
+    scarce.full_disks, scarce.limits, scarce.closed_streams, directories.two_in_one, directories.foreign,
+    directories.damaged_resumes, directories.changed_keys, outputs, locales, scarce.long_runs)}

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from report.results import Damaged
 
-NAMES = ("charts", "stability", "energy")  # in the order of the page
+NAMES = ("charts", "stability", "energy", "faults")  # in the order of the page
 
 
 @dataclass

@@ -16,7 +16,8 @@ void write_beside(const std::filesystem::path& path, std::string_view content); 
 void rename_into_place(const std::filesystem::path& path);                       // path.tmp -> path
 
 // The last resort of a full disk: the content goes over that of an existing file, which needs no new room
-// where it is about as long. A kill meanwhile leaves neither. Throws OutputError.
+// where it is about as long. Where there is no room for all of it the file stays as it is. A kill meanwhile
+// leaves neither. Throws OutputError.
 void overwrite_file(const std::filesystem::path& path, std::string_view content);
 
 // Whole content of a file. Throws OutputError.

@@ -44,7 +44,7 @@ std::vector<CaseChange> case_changes(std::string_view before, std::string_view n
 }
 
 bool may_change_on_resume(std::string_view key) {
-  return key == "time.end" || key.starts_with("output.") || key.starts_with("reference.");
+  return key == "time.end" || key.starts_with("output.");
 }
 
 std::string change_text(const CaseChange& change) {

@@ -91,6 +91,7 @@ struct ExistingRun {
   std::string resolved_case;
   std::vector<Warning> warnings;
   bool has_checkpoint = false;  // as it says itself
+  SeriesFacts series;           // rows and digest alone
 };
 std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json);
 

@@ -130,6 +130,7 @@ ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, cons
                       fmt::format("its checkpoint is of t = {:.9g} s, and the case ends at {:.9g} s",
                                   checkpoint.time, scene.times.end));
   }
+  SeriesFile::check_unchanged(directory / series_name, existing->series);
   SeriesFile::rows_until(directory / series_name, writer.columns_,
                          up_to(scene.times.row_times, checkpoint.time));
   FieldsFile::check_instants(directory, up_to(scene.times.field_times, checkpoint.time));

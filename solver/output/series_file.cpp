@@ -104,6 +104,21 @@ std::string SeriesFile::rows_until(const std::filesystem::path& path, std::span<
   return kept;
 }
 
+void SeriesFile::check_unchanged(const std::filesystem::path& path, const SeriesFacts& stated) {
+  if (stated.sha256.empty()) return;  // the run had not got so far
+  const std::string text = read_file(path);
+  const auto lines = complete_lines(text);
+  const auto count = static_cast<std::size_t>(stated.rows) + 1;
+  if (lines.size() < count) return;
+  Digest digest;
+  for (std::size_t line = 0; line < count; ++line) {
+    digest.add(lines[line]);
+    digest.add("\n");
+  }
+  if (digest.hex() != stated.sha256)
+    throw OutputError("resume", path, "it is not what the run has written: it was changed since");
+}
+
 SeriesFile SeriesFile::resume(const std::filesystem::path& path, std::span<const Column> columns,
                               std::span<const double> times) {
   const std::string kept = rows_until(path, columns, times);

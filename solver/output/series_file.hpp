@@ -51,6 +51,10 @@ class SeriesFile {
   static std::string rows_until(const std::filesystem::path& path, std::span<const Column> columns,
                                 std::span<const double> times);
 
+  // Throws OutputError where the first rows are not those of `stated` (of run.json): changed since. A file
+  // with fewer rows is let off, as a resumption that was killed leaves it; rows_until() says what is missing.
+  static void check_unchanged(const std::filesystem::path& path, const SeriesFacts& stated);
+
   // One value per column, the first one the time; throws std::invalid_argument for a wrong count, NaN or
   // infinity, OutputError if not written.
   void append(std::span<const Value> row);

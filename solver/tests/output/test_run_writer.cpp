@@ -448,6 +448,29 @@ TEST_F(RunDirectory, TheEndIsWrittenOverTheOldRecordWhereNoDraftCanBe) {
   EXPECT_EQ(record()["exit"]["reason"], "no space left on device");
 }
 
+TEST_F(RunDirectory, RowsThatWereChangedAreNotGoneOnWith) {
+  write_run(3);
+  std::string text = read_file(run / "series.csv");
+  const auto digit = text.find("0.01", text.find('\n'));
+  text[digit + 3] = '2';
+  std::ofstream(run / "series.csv") << text;
+  EXPECT_THROW(resume(), OutputError);
+  text[digit + 3] = '1';
+  std::ofstream(run / "series.csv") << text << "0.3,0.01";  // a row that a kill has torn
+  EXPECT_NO_THROW(resume());
+}
+
+// The room that is left ends within the record: half of the new one would be no record at all.
+TEST_F(RunDirectory, NoRoomForTheRecordLeavesTheOldOne) {
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  writer.write_progress(progress(0.0));
+  const auto before = read_file(run / "run.json");
+  const FullDisk full(before.size() + 100);
+  writer.give_up(progress(0.1), std::string(1000, 'x'));
+  EXPECT_EQ(read_file(run / "run.json"), before);
+}
+
 TEST_F(RunDirectory, TwoRunsAreEqualToTheByte) {
   write_run(3);
   const auto fields = read_file(run / "fields.h5"), series = read_file(run / "series.csv");

@@ -1,0 +1,51 @@
+"""Runs that are cut short, at random and at every call that changes a file, and go on."""
+
+import errno
+import signal
+import time
+
+from faults_tried.runs import SmallRun, crashed
+
+
+def kills(bench, entry):
+    """Killed or stopped at a random moment, then resumed (begun anew where nothing was there): the same files."""
+    run = SmallRun(bench, entry)
+    begun = time.monotonic()
+    run.go(bench.place() / "run")
+    length = time.monotonic() - begun
+    for number in range(entry["sample"] if bench.sample else entry["times"]):
+        out = bench.place() / "run"
+        running = run.start(out)
+        time.sleep(bench.chance.uniform(0.0, length))
+        running.send_signal(bench.chance.choice([signal.SIGKILL, signal.SIGTERM]))
+        running.wait()
+        yield f"kill {number + 1}", run.why_not_whole(out)
+        bench.drop(out)
+
+
+def at_calls(bench, entry):
+    """The run, and the numbers of its calls at which something happens: every `step`-th."""
+    run = SmallRun(bench, entry)
+    return run, bench.some(range(1, bench.calls_of(run) + 1, entry.get("step", 1)), entry["sample"])
+
+
+def kills_at_calls(bench, entry):
+    """Killed at the n-th call that changes a file (a write: after half of its bytes), then as above."""
+    run, numbers = at_calls(bench, entry)
+    for number in numbers:
+        out = bench.place() / "run"
+        ended = run.go(out, environment=bench.shimmed(FAULT_CALL=str(number)))
+        why = "" if ended is not None and ended.returncode == -signal.SIGKILL else "it was not killed"
+        yield f"{entry['case']}, call {number}", why or run.why_not_whole(out)
+        bench.drop(out)
+
+
+def failing_calls(bench, entry):
+    """The n-th call fails: an error that is said, or no harm done; then as above."""
+    run, numbers = at_calls(bench, entry)
+    for name in entry["errors"]:
+        for number in numbers:
+            out = bench.place() / "run"
+            ended = run.go(out, environment=bench.shimmed(FAULT_CALL=str(number), FAULT_ERRNO=str(getattr(errno, name))))
+            yield f"{entry['case']}, call {number}: {name}", crashed(ended) or run.why_not_whole(out)
+            bench.drop(out)

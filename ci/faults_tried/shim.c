@@ -1,0 +1,179 @@
+/* Put before the C library (LD_PRELOAD) by ci/faults: counts the calls that change files, and lets the one asked for go wrong.
+ *
+ *   FAULT_COUNT=FILE   writes into FILE how many calls there were, at the end of the program
+ *   FAULT_CALL=N       the N-th call is killed (SIGKILL), a write after half of its bytes; FAULT_ERRNO=E: it fails with E
+ *   FAULT_BYTES=N      a disk with N bytes left: what goes beyond is cut off, then fails with ENOSPC
+ *
+ * Standard streams are let off. The program has one thread. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static long calls = 0;
+static long long bytes_left = -1;
+
+static long number(const char* name) {
+  const char* given = getenv(name);
+  return given ? atol(given) : 0;
+}
+
+static void* next(const char* name) {
+  return dlsym(RTLD_NEXT, name);
+}
+
+__attribute__((constructor)) static void begin(void) {
+  if (getenv("FAULT_BYTES")) bytes_left = atoll(getenv("FAULT_BYTES"));
+}
+
+__attribute__((destructor)) static void end(void) {
+  const char* path = getenv("FAULT_COUNT");
+  if (!path) return;
+  FILE* file = fopen(path, "w");
+  if (!file) return;
+  fprintf(file, "%ld\n", calls);
+  fclose(file);
+}
+
+static int is_due(void) {
+  ++calls;
+  return calls == number("FAULT_CALL");
+}
+
+/* Does not return where the call is to be killed. */
+static int fail(void) {
+  const long error = number("FAULT_ERRNO");
+  if (error == 0) kill(getpid(), SIGKILL);
+  errno = (int)error;
+  return -1;
+}
+
+typedef ssize_t (*Write)(int, const void*, size_t);
+typedef ssize_t (*Pwrite)(int, const void*, size_t, off_t);
+
+/* How many of `size` bytes go through; -1 with errno where none does. A call that is due has `due` set. */
+static ssize_t allowed(int fd, size_t size, int* due) {
+  *due = 0;
+  if (fd <= STDERR_FILENO) return (ssize_t)size;
+  *due = is_due();
+  if (bytes_left < 0) return *due ? (ssize_t)(size / 2) : (ssize_t)size;
+  if (bytes_left == 0 && size > 0) {
+    errno = ENOSPC;
+    return -1;
+  }
+  const size_t passed = size < (size_t)bytes_left ? size : (size_t)bytes_left;
+  bytes_left -= (long long)passed;
+  return (ssize_t)passed;
+}
+
+ssize_t write(int fd, const void* data, size_t size) {
+  int due;
+  const ssize_t passed = allowed(fd, size, &due);
+  const ssize_t done = passed < 0 ? passed : ((Write)next("write"))(fd, data, (size_t)passed);
+  return due ? fail() : done;
+}
+
+static ssize_t write_at(const char* name, int fd, const void* data, size_t size, off_t offset) {
+  int due;
+  const ssize_t passed = allowed(fd, size, &due);
+  const ssize_t done = passed < 0 ? passed : ((Pwrite)next(name))(fd, data, (size_t)passed, offset);
+  return due ? fail() : done;
+}
+
+ssize_t pwrite(int fd, const void* data, size_t size, off_t offset) {
+  return write_at("pwrite", fd, data, size, offset);
+}
+
+ssize_t pwrite64(int fd, const void* data, size_t size, off_t offset) {
+  return write_at("pwrite64", fd, data, size, offset);
+}
+
+static int reserve(int fd, off_t offset, off_t size) {
+  if (is_due()) return fail() ? errno : 0;
+  if (bytes_left >= 0 && size > bytes_left) return ENOSPC;
+  return ((int (*)(int, off_t, off_t))next("posix_fallocate"))(fd, offset, size);
+}
+
+int posix_fallocate(int fd, off_t offset, off_t size) {
+  return reserve(fd, offset, size);
+}
+
+int posix_fallocate64(int fd, off_t offset, off_t size) {
+  return reserve(fd, offset, size);
+}
+
+static int open_file(const char* name, const char* path, int flags, mode_t mode) {
+  if ((flags & (O_WRONLY | O_RDWR | O_CREAT)) && strncmp(path, "/dev/", 5) != 0 && is_due()) return fail();
+  return ((int (*)(const char*, int, mode_t))next(name))(path, flags, mode);
+}
+
+static mode_t mode_of(int flags, va_list more) {
+  return flags & O_CREAT ? (mode_t)va_arg(more, int) : 0;
+}
+
+int open(const char* path, int flags, ...) {
+  va_list more;
+  va_start(more, flags);
+  const mode_t mode = mode_of(flags, more);
+  va_end(more);
+  return open_file("open", path, flags, mode);
+}
+
+int open64(const char* path, int flags, ...) {
+  va_list more;
+  va_start(more, flags);
+  const mode_t mode = mode_of(flags, more);
+  va_end(more);
+  return open_file("open64", path, flags, mode);
+}
+
+static int on_name(const char* call, const char* path) {
+  return is_due() ? fail() : ((int (*)(const char*))next(call))(path);
+}
+
+int unlink(const char* path) {
+  return on_name("unlink", path);
+}
+
+int rmdir(const char* path) {
+  return on_name("rmdir", path);
+}
+
+int remove(const char* path) {
+  return on_name("remove", path);
+}
+
+int mkdir(const char* path, mode_t mode) {
+  return is_due() ? fail() : ((int (*)(const char*, mode_t))next("mkdir"))(path, mode);
+}
+
+int rename(const char* from, const char* to) {
+  return is_due() ? fail() : ((int (*)(const char*, const char*))next("rename"))(from, to);
+}
+
+static int on_descriptor(const char* call, int fd) {
+  return fd > STDERR_FILENO && is_due() ? fail() : ((int (*)(int))next(call))(fd);
+}
+
+int fsync(int fd) {
+  return on_descriptor("fsync", fd);
+}
+
+int close(int fd) {
+  return on_descriptor("close", fd);
+}
+
+int ftruncate(int fd, off_t size) {
+  return is_due() ? fail() : ((int (*)(int, off_t))next("ftruncate"))(fd, size);
+}
+
+int ftruncate64(int fd, off_t size) {
+  return is_due() ? fail() : ((int (*)(int, off_t))next("ftruncate64"))(fd, size);
+}
