@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "solver/output/hdf5_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/tests/output/samples.hpp"
@@ -459,16 +458,6 @@ TEST_F(RunDirectory, RowsThatWereChangedAreNotGoneOnWith) {
   text[digit + 3] = '1';
   std::ofstream(run / "series.csv") << text << "0.3,0.01";  // a row that a kill has torn
   EXPECT_NO_THROW(resume());
-}
-
-TEST_F(RunDirectory, AnInstantThatCannotBeReadIsNotGoneOnWith) {
-  write_run(3);
-  EXPECT_NO_THROW(resume());
-  {
-    const auto file = hdf5::open_for_writing(run / "fields.h5");
-    ASSERT_GE(H5Ldelete(file, "t0001/phi", H5P_DEFAULT), 0);
-  }
-  EXPECT_THROW(resume(), OutputError);
 }
 
 // The room that is left ends within the record: half of the new one would be no record at all.
