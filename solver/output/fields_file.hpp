@@ -24,7 +24,7 @@ class FieldsFile {
   // Writes an empty fields.h5 and fields.xdmf into `directory`. Throws OutputError.
   static FieldsFile create(const std::filesystem::path& directory, const Scene& scene);
   // Goes on behind the instants of `times` [s], ascending; later ones are removed. Throws OutputError, also
-  // where the first instants are not of these times.
+  // where the first instants are not of these times or cannot be read.
   static FieldsFile resume(const std::filesystem::path& directory, const Scene& scene,
                            std::span<const double> times);
   // Throws as resume() does, and touches nothing.
