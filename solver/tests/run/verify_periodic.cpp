@@ -58,6 +58,8 @@ volume_tolerance = 1e-12
 linear_tolerance = 1e-8
 [contact]
 regularisation = 1e-3
+[model]
+preset = "paper"
 )",
                      "seam", overrides);
 }
@@ -266,7 +268,8 @@ TEST_P(Seam, AShiftAlongXOrZShiftsTheResultIn3D) {
 INSTANTIATE_TEST_SUITE_P(
     Choices, Seam,
     ::testing::Values(
-        Choice{"paper", {}}, Choice{"open_top", {"walls.top=open"}},
+        Choice{"paper", {}}, Choice{"advised", {"model.preset=advised"}},
+        Choice{"sourced", {"model.preset=sourced"}}, Choice{"open_top", {"walls.top=open"}},
         Choice{"limited_flux", {"numerics.solid_flux=limited"}},
         Choice{"compressive_flux", {"numerics.solid_flux=compressive"}},
         Choice{"part_cells", {"numerics.bed_surface=part-cells"}},
