@@ -68,6 +68,10 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
 // m = (phase mass) / dt. Where a face holds no grains both phases move as one.
 void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const FaceField& beta,
                                    const Aperture& aperture) {
+  // With the explicit law no cell's P_s answers to what fills it within the step.
+  const double least_pushed = scene_.numerics.contact_pressure == ContactPressure::implicit
+                                  ? solid_that_counts
+                                  : least_solid_fraction;
   for (int d = 0; d < grid_.dim; ++d) {
     const double* f = inertia.f_s[d].data();
     const double* solid = inertia.solid[d].data();
@@ -83,7 +87,7 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
       const double together = open[i] / (m_s + m_c);
       const double inv_det = open[i] / (grains ? m_s * m_c + b[i] * (m_s + m_c) : 1.0);
       s_c[i] = grains ? inv_det * ((m_c + b[i]) * f_s + b[i] * f_c) : together;
-      const bool pushed = f_s >= solid_that_counts;
+      const bool pushed = f_s >= least_pushed;
       s_s[i] = pushed ? inv_det * (m_c + b[i]) : 0.0;
       c_c[i] = grains ? inv_det * (b[i] * f_s + (m_s + b[i]) * f_c) : together;
       c_s[i] = pushed ? inv_det * b[i] : 0.0;
