@@ -11,7 +11,7 @@
 #include "solver/output/build_info.hpp"
 #include "solver/output/host_facts.hpp"
 #include "solver/output/output_error.hpp"
-#include "solver/scene/plausibility.hpp"
+#include "solver/plausibility/plausibility.hpp"
 
 namespace granvof {
 

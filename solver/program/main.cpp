@@ -15,9 +15,9 @@
 
 #include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/plausibility/plausibility.hpp"
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
-#include "solver/scene/plausibility.hpp"
 #include "solver/scene/restate.hpp"
 
 namespace {

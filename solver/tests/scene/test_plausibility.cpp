@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "solver/scene/plausibility.hpp"
+#include "solver/plausibility/plausibility.hpp"
 #include "solver/tests/scene/case_fixture.hpp"
 
 namespace granvof::test {

@@ -1,7 +1,7 @@
 // Rows of [contact]: the law's parameters, and those of choices that are not made.
 #include <cmath>
 
-#include "solver/scene/plausibility_rows.hpp"
+#include "solver/plausibility/plausibility_rows.hpp"
 #include "solver/scene/scales.hpp"
 
 namespace granvof::plausible {

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/scene/plausibility.hpp"
+#include "solver/plausibility/plausibility.hpp"
 
 namespace granvof::plausible {
 

@@ -1,4 +1,4 @@
-#include "solver/scene/plausibility.hpp"
+#include "solver/plausibility/plausibility.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "solver/closures/elastic_energy.hpp"
-#include "solver/scene/plausibility_rows.hpp"
+#include "solver/plausibility/plausibility_rows.hpp"
 #include "solver/scene/scales.hpp"
 #include "solver/scene/side_names.hpp"
 
