@@ -7,8 +7,8 @@ namespace granvof {
 
 // Below this solid fraction a face holds no grains: u_s is locked to u_c there.
 inline constexpr double least_solid_fraction = 1e-6;
-// Below this one u_s neither bounds a step nor has it refused, and P_s does not push: the grains of a face are
-// those of the old level, and what a filling cell's pressure would make of next to none is no velocity.
+// Below this one u_s neither bounds a step nor has it refused, and P_s does not push: the grains of a face
+// are those of the old level, and what a filling cell's pressure would make of next to none is no velocity.
 inline constexpr double solid_that_counts = 1e-3;
 
 // rho_c = alpha rho_l + (1 - alpha) rho_g [kg/m3]; mu_c likewise [Pa s] (below eq (5)). Pure, cell by cell.
