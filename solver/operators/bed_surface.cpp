@@ -1,6 +1,7 @@
 #include "solver/operators/bed_surface.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "solver/operators/mixture.hpp"
 
@@ -23,31 +24,32 @@ Range row_of_cells(const Grid& grid, int j, int ghosts) {
 }  // namespace
 
 void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
-                     const Field& p_s, Field& support, Field& resting) {
+                     const Field& p_s, Field& resting, Field& at_rest) {
   const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
   const double packed = scene.contact.solid_fraction_min;
   const double half = 0.5 * scene.gravity * grid.h[vertical];
   const double *f = f_s.data(), *a = alpha.data(), *p = p_s.data();
-  double *r = support.data(), *out = resting.data();
+  double *out = resting.data(), *rest = at_rest.data();
   resting.fill(0.0);
-  const int n = grid.cells.n[vertical];
+  at_rest.fill(0.0);
   for (const bool light : {false, true}) {
     if (light ? rho_s >= std::fmax(rho_l, rho_g) : rho_s <= std::fmin(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
-    const double end = closed_end(grid, light) ? 1.0 : 0.0;
-    for (int step = 0; step < n; ++step) {
-      const bool first = step == 0;
-      for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
-        const double beneath = f[c + below] / packed;
-        r[c] = first ? end : (beneath >= 1.0 ? 1.0 : beneath * r[c + below]);
-        const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
-        if (excess <= 0.0) return;  // its grains press the other way
-        const double bare = 1.0 - std::fmin(f[c - below] / packed, 1.0);
-        const double weight = half * excess * r[c] * bare;
-        out[c] = first ? weight : std::fmin(weight, p[c + below] / packed);
-      });
-    }
+    const auto look = [=](std::ptrdiff_t c, double support) {
+      const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
+      const double own = std::fmin(f[c], packed), bare = own - f[c - below];
+      if (excess <= 0.0 || bare <= 0.0) return;  // its grains press the other way, or carry others
+      const double borne = std::fmin(half * excess * bare, support);
+      out[c] = borne / own;
+      rest[c] = sign * borne / (half * excess);
+    };
+    Range inner = grid.all_cells();
+    light ? --inner.upper[vertical] : ++inner.lower[vertical];
+    for_each(grid.cells, inner, [=](std::ptrdiff_t c) { look(c, p[c + below]); });
+    const double end = closed_end(grid, light) ? std::numeric_limits<double>::infinity() : 0.0;
+    for_each(grid.cells, row_of_cells(grid, light ? grid.cells.n[vertical] - 1 : 0, 0),
+             [=](std::ptrdiff_t c) { look(c, end); });
   }
 }
 

@@ -10,14 +10,17 @@
 // balances the weight of both halves exactly when the cell rests on a packed one and nothing rests on it: at
 // the face above 0 - P_s takes one half, at the face below P_s - P_s,below the other. It is taken as a third
 // claimant beside kinetic and dense-flow pressure: P_s^EF = max(P_s^D, P_s^W) - P_s^K in (14); friction (17)
-// follows.
+// follows. What lies in the cell above is not at rest on this one until this one is packed: only what the
+// cell holds beyond it bears anything, so that a suspension of one fraction bears nothing.
 //
 // Such a cell has a free face, above its grains (below those that press upwards): their surface lies inside
 // the cell, and the velocity of that face is not theirs but that of the few grains which fall on them or hang
 // over the edge. It strains no grains: left in S of (17) it outruns the creep of the bed by orders, the law
 // yields to it, and the surface runs. So neither the normal strain of the cell nor the tilt of an edge by a
 // free face counts in S, and the stress of such an edge does no work on that face (friction_law.cpp;
-// Rheology::free_side says which cells).
+// Rheology::free_side says which cells). Nor does the fluid drag those at rest along with it: with the drag
+// of all, the face under a thin cloud falls for ever, carries nothing, and stirs the water above a heap at
+// rest at 7 mm/s (interphase_drag.hpp).
 //
 // Own derivation; it vanishes with the grid, like the cells it is about.
 #pragma once
@@ -26,15 +29,15 @@
 
 namespace granvof {
 
-// resting [Pa per solid fraction]: P_s^W = resting min(f_s, f_s,min), 0 except at the surface of a bed, in
-// cells:
-//   1/2 |rho_s - rho_c| g h r (1 - filled share of the cell above), at most P_s of the cell below / f_s,min.
-// r is the support from below: 1 on a closed floor and on a cell with f_s >= f_s,min, else the filled share
-// of the cell below times its own support: dispersed grains rest on nothing. The bound by P_s, of the old
-// level, takes the weight off a bed in free fall. Grains lighter than the fluid press upwards: above and
-// below change places. `support` is a work field. Interior cells only; one ghost layer of f_s must be filled.
+// resting [Pa per solid fraction]: P_s^W = resting min(f_s, f_s,min), 0 except at the surface of a bed. At
+// the old level, with f = min(f_s, f_s,min):
+//   P_s^W = 1/2 |rho_s - rho_c| g h (f - f_s of the cell above), at most P_s of the cell below;
+// on a closed floor without that bound, which takes the weight off a bed in free fall, and off the upper edge
+// of a cloud. at_rest [-]: the solid fraction whose weight that is, > 0 for heavy grains, < 0 for those
+// lighter than the fluid, which press upwards: above and below change places. Interior cells only; one ghost
+// layer of f_s and P_s must be filled.
 void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
-                     const Field& p_s, Field& support, Field& resting);
+                     const Field& p_s, Field& resting, Field& at_rest);
 
 // Contact pressure on floor and lid [Pa]: adds to the ghosts of `pressure` (mirrored on entry) twice the half
 // weight of the cell's grains, but not more than the cell's own pressure again, so that the mean over both

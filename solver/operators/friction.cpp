@@ -36,9 +36,11 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
     mu_edge_[p] = Field(grid);
     shear_[p] = Field(grid);
   }
-  if (scene.numerics.bed_surface == BedSurface::part_cells)
+  if (scene.numerics.bed_surface == BedSurface::part_cells) {
+    mu_vertical_ = Field(grid);
     for (int d = 0; d < grid.dim; d += 2)
       tilting_[plane_index(std::min(d, vertical), std::max(d, vertical))] = Field(grid, 1.0);
+  }
   for (int d = 0; d < grid.dim; ++d) {
     coefficient_[d] = FaceField(grid);
     faces_[d] = faces_of(grid, box_, d);

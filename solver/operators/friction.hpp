@@ -60,6 +60,8 @@ class Friction {
   // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see
   // free_faces_of_part_cells(); nullptr for all of it.
   const double* tilting(int d, int e) const;
+  // Viscosity that a normal strain along d meets [Pa s].
+  const double* normal_viscosity(int d) const;
   // y = mass u - div(stress of u) where marked, 0 elsewhere; one ghost layer of u must be filled.
   void apply(const FaceField& mass, const linear::Components& u, const linear::Components& y);
   // Tangential velocities beyond the walls: minus the inside, or mirrored about the wall's own velocity.
@@ -76,6 +78,7 @@ class Friction {
   std::array<Field, 3> mu_edge_;  // on edges [Pa s], by plane_index()
   std::array<Field, 3> shear_;    // shear stress on edges [Pa]
   std::array<Field, 3> tilting_;  // with part-cells, on the edges of vertical planes [-]
+  Field mu_vertical_;             // with part-cells, of the vertical normal strain [Pa s]
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
   const Communicator& communicator_;

@@ -12,6 +12,9 @@ namespace {
 constexpr double slowest_sliding =
     1e-7;  // of the scene's velocity: below it a Coulomb wall holds like a viscous one
 
+// Grains above a free face, as a share of those below, from which on they fall on it unhindered.
+constexpr double falling_that_frees = 0.05;
+
 // What friction depends on, in a cell or summed over the cells in contact around an edge.
 struct Contacts {
   int count = 0;
@@ -81,7 +84,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),
                *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data(),
                *beta = rheology.agitated_drag.data();
-  const double* sq = strain_.squared.data();
+  const double *sq = strain_.squared.data(), *side = rheology.free_side.data();
   double *mu = mu_.data(), *lambda = lambda_.data();
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     lambda[c] = kinetic[c];
@@ -89,6 +92,15 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     if (p[c] > 0.0) mu[c] += viscosity_at({1, p[c], psi[c], stop[c], beta[c], 0.0}, std::sqrt(0.5 * sq[c]));
   });
   boundary_.fill_scalar(mu_);
+  if (scene_.numerics.bed_surface == BedSurface::part_cells) {
+    double* squeezed = mu_vertical_.data();
+    const double* rest = rheology.share_at_rest.data();
+    for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
+      const double hold = side[c] == 0.0 ? 1.0 : std::fmax(0.0, 1.0 - (1.0 - rest[c]) / falling_that_frees);
+      squeezed[c] = lambda[c] + hold * (mu[c] - lambda[c]);
+    });
+    boundary_.fill_scalar(mu_vertical_);
+  }
   boundary_.fill_scalar(lambda_);
   for (int d = 0; d < grid_.dim; ++d) {
     for (int e = d + 1; e < grid_.dim; ++e) {

@@ -8,6 +8,11 @@ const double* Friction::tilting(int d, int e) const {
   return part_cells && (d == vertical || e == vertical) ? tilting_[plane_index(d, e)].data() : nullptr;
 }
 
+const double* Friction::normal_viscosity(int d) const {
+  const bool part_cells = scene_.numerics.bed_surface == BedSurface::part_cells;
+  return part_cells && d == vertical ? mu_vertical_.data() : mu_.data();
+}
+
 void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) const {
   const Layout& l = grid_.cells;
   for (int c = 0; c < grid_.dim; ++c) {
@@ -34,7 +39,7 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
   Range with_wrapped = box_;  // the cell beyond a periodic lower end is a neighbour of face 0
   for (int d = 0; d < grid_.dim; ++d) with_wrapped.lower[d] -= grid_.cells.periodic[d] ? 1 : 0;
   double* div = divergence_.data();
-  const double *mu = mu_.data(), *lambda = lambda_.data();
+  const double* lambda = lambda_.data();
   for (int d = 0; d < grid_.dim; ++d) {
     const double* v = u[d];
     const std::ptrdiff_t s = grid_.stride(d);
@@ -62,7 +67,7 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
     }
   }
   for (int d = 0; d < grid_.dim; ++d) {
-    const double *v = u[d], *own = mass[d].data(), *m = marked_[d].data();
+    const double *v = u[d], *own = mass[d].data(), *m = marked_[d].data(), *mu = normal_viscosity(d);
     double* out = y[d];
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h = 1.0 / grid_.h[d];

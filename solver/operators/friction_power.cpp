@@ -18,7 +18,7 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   fill_wall_ghosts(v, true);
   apply(mass, v, r);
   Power power;
-  const double *mu = mu_.data(), *kinetic = lambda_.data(), *div = divergence_.data();
+  const double *kinetic = lambda_.data(), *div = divergence_.data();
   double* spent = kinetic_power.data();
   double total = sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
     spent[c] = kinetic[c] * div[c] * div[c];
@@ -27,7 +27,8 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h = 1.0 / grid_.h[d];
-    const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(), *end = u_end[d].data();
+    const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(), *end = u_end[d].data(),
+                 *mu = normal_viscosity(d);
     power.on_grains += sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
       return m[c] != 0.0 ? end[c] * (own[c] * x[c] - y[c]) : 0.0;
     });

@@ -18,7 +18,8 @@ constexpr double share_of_the_hold = 1e-6;
 void Friction::set_preconditioner(const FaceField& mass) {
   for (int d = 0; d < grid_.dim; ++d) {
     const Layout& layout = faces_[d];
-    const double *m = marked_[d].data(), *own = mass[d].data(), *mu = mu_.data(), *lambda = lambda_.data();
+    const double *m = marked_[d].data(), *own = mass[d].data(), *mu = normal_viscosity(d),
+                 *lambda = lambda_.data();
     double* diagonal = component_mass_[d].data();
     for_each(layout, [=](std::ptrdiff_t c) { diagonal[c] = m[c] * own[c]; });
     linear::Faces faces{};

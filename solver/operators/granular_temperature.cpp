@@ -104,39 +104,27 @@ struct LocalBalance {
   double collisions;  // [kg/m4]
   double expansion;   // the part of (23) that follows div u_s, of either sign [kg/m3 s]
   double work;        // P_s^K div u_s / Theta, of either sign; 0 without pressure work [kg/m3 s]
-  double drag;        // beta, mean over the faces that grains pass (closed ones hold none) [kg/m3 s]
+  double drag;        // beta of the cell [kg/m3 s]
 };
 
 class LocalBalances {
  public:
-  LocalBalances(const Grid& grid, const Scene& scene, const Field& f_s, const FaceField& beta,
-                const Field& restitution, const StrainRate& strain)
-      : dim_(grid.dim),
-        stride_(grid.cells.stride),
-        rho_s_(scene.solid.density),
+  LocalBalances(const Scene& scene, const Field& f_s, const Field& beta, const Field& restitution,
+                const StrainRate& strain)
+      : rho_s_(scene.solid.density),
         d_s_(scene.solid.diameter),
         f_max_(scene.contact.solid_fraction_max),
         work_(scene.model.pressure_work),
         f_s_(f_s.data()),
         e_(restitution.data()),
-        div_(strain.divergence.data()) {
-    for (int d = 0; d < dim_; ++d) beta_[d] = beta[d].data();
-  }
+        div_(strain.divergence.data()),
+        beta_(beta.data()) {}
 
   LocalBalance operator()(std::ptrdiff_t c) const {
     const double f = f_s_[c], e = e_[c], g0 = closures::radial_distribution(f, f_max_);
-    double drag = 0.0;
-    int passing = 0;
-    for (int d = 0; d < dim_; ++d) {
-      for (const double beta_face : {beta_[d][c], beta_[d][c + stride_[d]]}) {
-        drag += beta_face;
-        passing += beta_face > 0.0 ? 1 : 0;
-      }
-    }
-    if (passing > 0) drag /= passing;
     const double work = work_ ? closures::kinetic_pressure(f, 1.0, e, g0, rho_s_) * div_[c] : 0.0;
     return {closures::collisional_dissipation_rate(f, e, g0, rho_s_, d_s_),
-            -3.0 * (1.0 - e * e) * f * f * rho_s_ * g0 * div_[c], work, drag};
+            -3.0 * (1.0 - e * e) * f * f * rho_s_ * g0 * div_[c], work, beta_[c]};
   }
 
   // mu_s^K f_s / sqrt(Theta) [kg/m2]
@@ -146,24 +134,21 @@ class LocalBalances {
   }
 
  private:
-  int dim_;
-  std::array<std::ptrdiff_t, 3> stride_;
   double rho_s_, d_s_, f_max_;
   bool work_;
-  const double *f_s_, *e_, *div_;
-  std::array<const double*, 3> beta_{};
+  const double *f_s_, *e_, *div_, *beta_;
 };
 
 }  // namespace
 
 // The production A S^2 w is proportional to w: divided by w the balance, 3 f rho dw/dt = A S^2 - collisions
 // w^2 - decay w, is a quadratic with one positive root, above zero for grains at rest too.
-void GranularTemperature::predict(double dt, const Field& theta, const Field& f_s, const FaceField& beta,
+void GranularTemperature::predict(double dt, const Field& theta, const Field& f_s, const Field& beta,
                                   const Field& restitution, const StrainRate& strain,
                                   Field& predicted) const {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
-  const LocalBalances at(grid_, scene_, f_s, beta, restitution, strain);
+  const LocalBalances at(scene_, f_s, beta, restitution, strain);
   const double *f = f_s.data(), *t = theta.data(), *sq = strain.squared.data(),
                *div = strain.divergence.data();
   double* out = predicted.data();
@@ -187,12 +172,12 @@ void GranularTemperature::predict(double dt, const Field& theta, const Field& f_
 // rest of it came from nowhere (numerical_granular of the energy budget). The algebraic form drops the time
 // term, and takes the work of the new Theta where it is a loss.
 GranularLosses GranularTemperature::balance(double dt, const Field& theta, const Field& f_s_new,
-                                            const FaceField& beta, const Field& restitution,
+                                            const Field& beta, const Field& restitution,
                                             const StrainRate& strain, const Field& production,
                                             Field& theta_new) {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
-  const LocalBalances at(grid_, scene_, f_s_new, beta, restitution, strain);
+  const LocalBalances at(scene_, f_s_new, beta, restitution, strain);
   const double *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
   double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
          *excess = excess_.data();
@@ -228,10 +213,9 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
 }
 
 GranularLosses GranularTemperature::advance(double dt, const Field& theta, const Field& f_s,
-                                            const Field& f_s_new, const FaceField& flux_s,
-                                            const FaceField& beta, const Rheology& rheology,
-                                            const StrainRate& strain, const Field& production,
-                                            Field& theta_new) {
+                                            const Field& f_s_new, const FaceField& flux_s, const Field& beta,
+                                            const Rheology& rheology, const StrainRate& strain,
+                                            const Field& production, Field& theta_new) {
   switch (scene_.model.granular_temperature) {
     case TemperatureModel::off:
       return {};  // Theta stays zero

@@ -29,22 +29,22 @@ class GranularTemperature {
 
   // Theta that the kinetic viscosity of the step is taken at [m2/s2]: the old one, but at least a small share
   // of what the strain would make in each cell by itself within dt, nothing carried; in the algebraic form
-  // all of that. In: Theta, f_s, e of the old level, beta on faces. Interior cells only.
-  void predict(double dt, const Field& theta, const Field& f_s, const FaceField& beta,
-               const Field& restitution, const StrainRate& strain, Field& predicted) const;
+  // all of that. In: Theta, f_s, e of the old level, beta of cells. Interior cells only.
+  void predict(double dt, const Field& theta, const Field& f_s, const Field& beta, const Field& restitution,
+               const StrainRate& strain, Field& predicted) const;
 
   // Theta of the new level [m2/s2], >= 0 without clipping. In: Theta, f_s of the old level (one ghost layer
-  // filled), f_s and strain of the new level, flux_s [m/s], beta on faces, e of the step, and what the
+  // filled), f_s and strain of the new level, flux_s [m/s], beta of cells, e of the step, and what the
   // kinetic stress dissipated, production >= 0 [W/m3].
   GranularLosses advance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                         const FaceField& flux_s, const FaceField& beta, const Rheology& rheology,
+                         const FaceField& flux_s, const Field& beta, const Rheology& rheology,
                          const StrainRate& strain, const Field& production, Field& theta_new);
 
  private:
   void convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new, const FaceField& flux_s,
                Field& theta_new) const;
   void conduct(double dt, const Field& f_s_new, const Rheology& rheology, Field& theta_new);
-  GranularLosses balance(double dt, const Field& theta, const Field& f_s_new, const FaceField& beta,
+  GranularLosses balance(double dt, const Field& theta, const Field& f_s_new, const Field& beta,
                          const Field& restitution, const StrainRate& strain, const Field& production,
                          Field& theta_new);
 

@@ -6,9 +6,19 @@
 #include "solver/closures/drag.hpp"
 
 namespace granvof {
+namespace {
+
+constexpr int vertical = 1;
+// Share of a face's grains that the fluid moves at least. What rests is balanced by its contact pressure but
+// for the difference between the densities of fluid that cell and face see: at a water level next to nothing
+// would meet no drag at all.
+constexpr double least_moving = 0.05;
+
+}  // namespace
 
 void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c,
-                            const Field& f_s, const Field& alpha, const FaceInertia& inertia) {
+                            const Field& f_s, const Field& alpha, const FaceInertia& inertia,
+                            const Field& at_rest) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
     const double* us = u_s[d].data();
@@ -16,12 +26,13 @@ void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, cons
     double* w = slip_[d].data();
     for_each(grid_.cells, grid_.cells_and_ghosts(1), [=](std::ptrdiff_t c) { w[c] = uc[c] - us[c]; });
   }
-  closures::with_drag_law(scene_.model.drag_law, [&](auto law) { fill(law, boundary, f_s, alpha, inertia); });
+  closures::with_drag_law(scene_.model.drag_law,
+                          [&](auto law) { fill(law, boundary, f_s, alpha, inertia, at_rest); });
 }
 
 template <typename Law>
 void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
-                          const FaceInertia& inertia) {
+                          const FaceInertia& inertia, const Field& at_rest) {
   const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
   const double d_s = scene_.solid.diameter;
   const double* a = alpha.data();
@@ -29,11 +40,10 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
     const std::ptrdiff_t s = grid_.stride(d);
     const double* own = slip_[d].data();
     const double* f = inertia.f_s[d].data();
-    const double* h = f;
-    if (scene_.numerics.solid_flux != SolidFlux::upwind) {
+    const bool hindered_by_receiver = scene_.numerics.solid_flux != SolidFlux::upwind;
+    if (hindered_by_receiver)
       fraction_.face_values(grid_, f_s, slip_[d], d, 0.0, grid_.inner_faces(d), hindering_);
-      h = hindering_.data();
-    }
+    const double *receiver = hindering_.data(), *rest = at_rest.data();
     double* beta = beta_[d].data();
     const int e = (d + 1) % grid_.dim, g = (d + 2) % grid_.dim;
     const bool three = grid_.dim == 3;
@@ -51,13 +61,32 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
         const double w2 = 0.25 * (side2[c] + side2[c - s] + side2[c + s2] + side2[c + s2 - s]);
         square += w2 * w2;
       }
-      const double hindering = std::max(h[c], closures::lone_grain);
-      const double share = f[c] * (1.0 - f[c]) / (hindering * (1.0 - hindering));
+      const double held = d == vertical ? 0.5 * (rest[c - s] - rest[c]) : 0.0;
+      const double moving = std::max(f[c] - held, least_moving * f[c]);
+      const double hindering = std::max(hindered_by_receiver ? receiver[c] : moving, closures::lone_grain);
+      const double share = moving * (1.0 - f[c]) / (hindering * (1.0 - hindering));
       beta[c] = share * closures::drag_coefficient(law, hindering, 0.5 * (a[c] + a[c - s]), std::sqrt(square),
                                                    gas, liquid, d_s);
     });
     boundary.exchange(beta_[d]);
   }
+  if (scene_.model.granular_temperature == TemperatureModel::off) return;
+  const std::array<const double*, 3> slip{slip_[0].data(), slip_[1].data(),
+                                          grid_.dim == 3 ? slip_[2].data() : nullptr};
+  const auto stride = grid_.cells.stride;
+  const int dim = grid_.dim;
+  const double* f = f_s.data();
+  double* beta = of_cells_.data();
+  for_each(grid_.cells, [=, &gas, &liquid](std::ptrdiff_t c) {
+    beta[c] = 0.0;
+    if (f[c] < least_solid_fraction) return;
+    double square = 0.0;
+    for (int d = 0; d < dim; ++d) {
+      const double w = 0.5 * (slip[d][c] + slip[d][c + stride[d]]);
+      square += w * w;
+    }
+    beta[c] = closures::drag_coefficient(law, f[c], a[c], std::sqrt(square), gas, liquid, d_s);
+  });
 }
 
 }  // namespace granvof

@@ -1,6 +1,8 @@
 // Drag coefficient beta_c on faces, by the law of the scene, from the slip of the old level.
 //
-// beta = 18 mu f_s f_c F / d^2: number of grains and share of the fluid are the face's means. With the
+// beta = 18 mu f_s f_c F / d^2: number of grains and share of the fluid are the face's means, but for grains
+// at rest in part-cells: those the contacts below hold, so that the force between fluid and grains of a face
+// is the weight of what falls there. With the
 // second-order fluxes the hindrance F is taken at the fraction that the fluid brings along, upwind along its
 // slip: that of the cell the grains move into. A suspension's own flux f_s u_s(f_s) is then monotone: it
 // rises with what is above and falls with what is below. With F of the mean too, the face at a front lets
@@ -22,19 +24,24 @@ class InterphaseDrag {
         fraction_(scene.numerics.solid_flux),
         slip_(grid),
         hindering_(grid),
-        beta_(grid) {}
+        beta_(grid),
+        of_cells_(grid) {}
 
   // One ghost layer of both velocities and of alpha and two of f_s must be filled; f_s on faces comes with
-  // the inertia. A face at a periodic end has its copy at the other.
+  // the inertia, `at_rest` from the rheology (0 but in part-cells). A face
+  // at a periodic end has its copy at the other.
   void update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c, const Field& f_s,
-              const Field& alpha, const FaceInertia& inertia);
+              const Field& alpha, const FaceInertia& inertia, const Field& at_rest);
 
-  const FaceField& beta() const { return beta_; }  // [kg/m3 s], zero where a face holds no grains
+  // At cell centres: what agitated grains are dragged by. (A mean over faces depends on how many of them lie
+  // across the gradient of f_s: four cells thick another one than in the plane.)
+  const Field& beta_of_cells() const { return of_cells_; }  // [kg/m3 s], interior
+  const FaceField& beta() const { return beta_; }           // [kg/m3 s], zero where a face holds no grains
 
  private:
   template <typename Law>
   void fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
-            const FaceInertia& inertia);
+            const FaceInertia& inertia, const Field& at_rest);
 
   const Grid& grid_;
   const Scene& scene_;
@@ -42,6 +49,7 @@ class InterphaseDrag {
   FaceField slip_;   // u_c - u_s, component by component [m/s]
   Field hindering_;  // f_s that F is taken at, on the faces of one direction [-]
   FaceField beta_;
+  Field of_cells_;
 };
 
 }  // namespace granvof

@@ -1,5 +1,7 @@
 #include "solver/operators/rheology.hpp"
 
+#include <cmath>
+
 #include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/drag.hpp"
 #include "solver/closures/restitution.hpp"
@@ -14,7 +16,7 @@ namespace granvof {
 void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
                       const Field& theta, const Field& alpha, const Field& p_s, const Field& packing) {
   const bool part_cells = scene.numerics.bed_surface == BedSurface::part_cells;
-  if (part_cells) rest_on_the_bed(grid, scene, f_s, alpha, p_s, support_, resting);
+  if (part_cells) rest_on_the_bed(grid, scene, f_s, alpha, p_s, resting, at_rest);
   const Solid& solid = scene.solid;
   const Contact& contact = scene.contact;
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
@@ -57,11 +59,13 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   }
   if (part_cells) {
     const double rho_l = scene.liquid.density, rho_g = scene.gas.density;
-    double* side = free_side.data();
+    const double* rest = at_rest.data();
+    double *side = free_side.data(), *share = share_at_rest.data();
     for_each(grid.cells, [=, &solid, &contact](std::ptrdiff_t c) {
-      const bool part = weight[c] > 0.0 && f[c] < touching[c] &&
-                        closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, 0.0,
-                                                    touching[c]) < weight[c] * f[c];
+      const double without =
+          closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, 0.0, touching[c]);
+      const bool part = weight[c] > 0.0 && f[c] < touching[c] && without < p[c];
+      share[c] = part ? std::fabs(rest[c]) / std::fmin(f[c], contact.solid_fraction_min) : 0.0;
       side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
     });
     boundary.exchange(free_side);

@@ -15,6 +15,8 @@ struct Rheology {
   Field agitated_drag;      // beta that agitation is dragged by [kg/m3 s]; 0 without agitation drag
   Field resting;            // weight of grains in partly filled cells [Pa per solid fraction], no ghosts;
                             // see bed_surface.hpp, 0 with bed_surface = "whole-cells"
+  Field at_rest;            // solid fraction of those grains [-], < 0 if they press upwards; no ghosts
+  Field share_at_rest;      // of the cell's grains, where it has a free face [-]; no ghosts
   Field free_side;          // +1, -1: grains at rest fill a part of the cell, and its upper, lower face is
                             // free; else 0 [-]
 
@@ -26,8 +28,9 @@ struct Rheology {
         arrest_friction(grid),
         agitated_drag(grid),
         resting(grid),
-        free_side(grid),
-        support_(grid) {}
+        at_rest(grid),
+        share_at_rest(grid),
+        free_side(grid) {}
 
   // All but the kinetic viscosity, with ghosts filled but for `resting`, from f_s, Theta, alpha, P_s and
   // packing of the same level.
@@ -37,9 +40,6 @@ struct Rheology {
   // The kinetic viscosity at `theta`, with ghosts filled; e must be up to date.
   void update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
                                 const Field& f_s, const Field& theta);
-
- private:
-  Field support_;
 };
 
 }  // namespace granvof

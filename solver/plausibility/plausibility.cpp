@@ -32,7 +32,7 @@ double springs(const Scene& s, double f) {
   return energy(f, s.contact.solid_fraction_min) / (f * s.solid.density * s.gravity * 0.5 * bed_height(s));
 }
 bool may_spring(const Scene& s) {
-  return s.bed && s.gravity > 0.0 && !s.model.shear_dilatancy &&
+  return s.bed && s.gravity > 0.0 && !s.model.carries_packing() &&
          s.bed->solid_fraction > s.contact.solid_fraction_min;
 }
 // From which share on a bed springs visibly: it lifts its own middle by so much of it.
@@ -222,7 +222,7 @@ std::vector<Row> bed_rows() {
           fractions_that_rest,
           [](const Scene& s) {
             return fmt::format(
-                "without model.shear_dilatancy a bed denser than contact.solid_fraction_min = {} springs: "
+                "with model.packing = \"uniform\" a bed denser than contact.solid_fraction_min = {} springs: "
                 "its "
                 "contacts hold {:.3g} times the energy of its own height",
                 s.contact.solid_fraction_min, springs(s, s.bed->solid_fraction));

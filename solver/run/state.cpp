@@ -19,26 +19,46 @@ void for_cells(const Grid& grid, Body&& body) {
 }
 
 // A bed whose packing is a matter of its history is at rest at whatever solid fraction it has: P_s carries
-// the submerged weight above, and f_p follows from (13). Grains lighter than the fluid about them bear
-// nothing yet.
-void settle(const Grid& grid, const Scene& scene, State& s) {
+// the submerged weight of the grains above, and f_p follows from (13). What no floor or lid holds hangs in
+// free fall, or floats: of its load only what bends it is borne, none where all grains weigh alike.
+void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s) {
   const Layout& l = grid.cells;
-  for (int k = 0; k < l.n[2]; ++k) {
-    for (int i = 0; i < l.n[0]; ++i) {
-      double load = 0.0;
-      for (int j = l.n[1] - 1; j >= 0; --j) {
-        const std::ptrdiff_t c = l.index(i, j, k);
-        const double excess =
-            scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
-        const double weight = std::fmax(excess, 0.0) * s.f_s[c] * scene.gravity * grid.h[1];
-        if (s.f_s[c] > scene.contact.solid_fraction_min) {
-          s.p_s[c] = load + 0.5 * weight;
-          s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
-        }
-        load += weight;
-      }
+  const int rows = l.n[1];
+  const auto weight = [&](int j) {  // submerged, per area [Pa]
+    const std::ptrdiff_t c = l.index(i, j, k);
+    return (scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density)) * s.f_s[c] *
+           scene.gravity * grid.h[1];
+  };
+  const auto has_grains = [&](int j) { return s.f_s[l.index(i, j, k)] >= least_solid_fraction; };
+  for (int top = rows - 1; top >= 0; --top) {
+    if (!has_grains(top)) continue;
+    double load = 0.0, grains = 0.0;  // of all cells down to `bottom`
+    int bottom = top;
+    for (int j = top; j >= 0 && has_grains(j); --j) {
+      bottom = j;
+      load += weight(j);
+      grains += s.f_s[l.index(i, j, k)];
     }
+    const bool on_floor = bottom == 0 && !l.periodic[1] && load > 0.0;
+    const bool under_lid = top == rows - 1 && !l.periodic[1] && !grid.open_top && load < 0.0;
+    double p = under_lid ? -load : 0.0;  // at the upper face
+    const double per_grain = on_floor || under_lid ? 0.0 : load / grains;
+    for (int j = top; j >= bottom; --j) {
+      const std::ptrdiff_t c = l.index(i, j, k);
+      const double half = 0.5 * (weight(j) - per_grain * s.f_s[c]);
+      if (s.f_s[c] > scene.contact.solid_fraction_min) {
+        s.p_s[c] = std::fmax(p + half, 0.0);
+        s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
+      }
+      p += 2.0 * half;
+    }
+    top = bottom;
   }
+}
+
+void settle(const Grid& grid, const Scene& scene, State& s) {
+  for (int k = 0; k < grid.cells.n[2]; ++k)
+    for (int i = 0; i < grid.cells.n[0]; ++i) settle_column(grid, scene, i, k, s);
 }
 
 }  // namespace
@@ -97,7 +117,7 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
       }
     }
   }
-  if (scene.model.shear_dilatancy) settle(grid, scene, s);
+  if (scene.model.carries_packing()) settle(grid, scene, s);
   s.fill_ghosts(boundary);
   s.energy = EnergyBudget(grid, scene).stored(s);
   return s;

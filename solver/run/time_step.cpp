@@ -57,7 +57,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
     rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
-    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_);
+    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_, rheology_.at_rest);
     stir_grains(now, dt);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
@@ -101,7 +101,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   }
   cost_.time("transport", [&] {
     if (scene_.model.colour) transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
-    if (scene_.model.shear_dilatancy)
+    if (scene_.model.carries_packing())
       transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.packing, next.packing);
     report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
     set_pressure_level(grid_, scene_, next.alpha, next.p_c);
@@ -117,7 +117,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("granular temperature", [&] {
     stress = friction_.power(mass_, next.u_strain, next.u_s, production_);
     strain_.update(grid_, next.u_s);
-    granular = temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta(), rheology_,
+    granular = temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta_of_cells(), rheology_,
                                     strain_, production_, next.theta);
   });
   next.fill_ghosts(boundary_);
@@ -132,7 +132,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 void TimeStep::stir_grains(const State& now, double dt) {
   if (scene_.model.granular_temperature == TemperatureModel::off) return;
   strain_.update(grid_, now.u_strain);
-  temperature_.predict(dt, now.theta, now.f_s, drag_.beta(), rheology_.restitution, strain_, stirred_);
+  temperature_.predict(dt, now.theta, now.f_s, drag_.beta_of_cells(), rheology_.restitution, strain_, stirred_);
   rheology_.update_kinetic_viscosity(grid_, scene_, boundary_, now.f_s, stirred_);
 }
 

@@ -217,6 +217,12 @@ std::vector<Key> model_keys() {
              MEMBER(scene.model.friction_law),
              "Friction coefficient: solid.friction (the paper), or mu(I), which it is at rest (Jop et al. "
              "2006)."),
+      came_later(choice("model.packing",
+                        Words<Packing>{{"uniform", Packing::uniform}, {"carried", Packing::carried}},
+                        MEMBER(scene.model.packing),
+                        "Where grains touch: at contact.solid_fraction_min everywhere (the paper), or where "
+                        "(13) bears the weight of the bed as it is set up, carried with the grains: a bed "
+                        "then starts at rest at any solid fraction.")),
       came_later(key("model.thin_layer_arrest", "", any, MEMBER(scene.model.thin_layer_arrest),
                      "Friction of a layer on a no-slip floor at least that at which it stops, h_stop "
                      "(Pouliquen 1999).")),
@@ -224,7 +230,7 @@ std::vector<Key> model_keys() {
           "model.shear_dilatancy", "", any, MEMBER(scene.model.shear_dilatancy),
           "The packing at which grains touch follows shear to contact.critical_solid_fraction (Pailha and "
           "Pouliquen "
-          "2009); without, it is solid_fraction_min (the paper).")),
+          "2009), from where model.packing = \"carried\" starts.")),
       came_later(key("model.frictional_restitution", "", any, MEMBER(scene.model.frictional_restitution),
                      "e0 less what solid.friction takes in collisions (Chialvo and Sundaresan 2013).")),
       came_later(

@@ -34,6 +34,12 @@ const std::vector<Choice>& choices() {
        .reason =
            "Own: grains of partly filled cells bear their weight and rub by it; in whole-cells they slide as "
            "if they had no contacts, and a heap at rest drains."},
+      {.key = "model.packing",
+       .advised = "carried",
+       .sourced = "carried",
+       .reason = "Own: a bed rests at the solid fraction it was prepared at. With one packing for all it "
+                 "springs apart or sinks until (13) bears its weight, and light grains are lifted off the "
+                 "slope."},
       {.key = "model.friction_law",
        .sourced = "inertial",
        .reason = "Friction grows with the rate of shear, from solid.friction at rest (Jop et al. 2006)."},

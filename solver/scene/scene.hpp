@@ -113,6 +113,10 @@ struct Gate {
 // Friction coefficient of (17): eta_s alone (the paper), or mu(I) from eta_s at rest to mu_2 at speed.
 enum class FrictionLaw { constant, inertial };
 
+// The solid fraction at which grains touch: f_s,min everywhere (the paper), or what their bed was prepared
+// at, carried with them.
+enum class Packing { uniform, carried };
+
 // beta_c: (8), (9) as printed, or a law without a jump, see closures/drag_*.hpp.
 enum class DragLaw { paper, di_felice, beetstra, tenneti };
 
@@ -129,11 +133,15 @@ struct Model {
   bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
   bool contact_friction = true;    // tau_s^E, eq (17)
   FrictionLaw friction_law = FrictionLaw::constant;
+  Packing packing = Packing::uniform;
   bool thin_layer_arrest = false;       // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
   bool shear_dilatancy = false;         // where grains touch follows shear, shear_dilatancy.hpp
   bool frictional_restitution = false;  // friction takes from collisions too, restitution.hpp
   bool agitation_drag = false;          // drag on the agitation of sheared grains, agitation_drag.hpp
   bool colour = true;                   // eq (25)
+
+  // Where grains touch is a field of the state, which a bed at rest starts with.
+  bool carries_packing() const { return packing == Packing::carried || shear_dilatancy; }
   bool operator==(const Model&) const = default;
 };
 

@@ -13,7 +13,7 @@ using test::Tank;
 using test::unit_scene;
 
 // What the kinetic stress (16) of the grains dissipates under a strain [W/m3], Theta predicted as in a step.
-Field production_of(const Tank& s, double dt, const Field& theta, const Field& f_s, const FaceField& beta,
+Field production_of(const Tank& s, double dt, const Field& theta, const Field& f_s, const Field& beta,
                     const StrainRate& strain, const GranularTemperature& temperature, Rheology& rheology) {
   Field stirred(s.grid), production(s.grid);
   temperature.predict(dt, theta, f_s, beta, rheology.restitution, strain, stirred);
@@ -64,7 +64,8 @@ struct Gas {
   }
   Tank s;
   Field f_s, theta, next;
-  FaceField beta, flux;
+  Field beta;
+  FaceField flux;
   Rheology rheology;
   StrainRate strain;
   GranularTemperature temperature;
@@ -163,7 +164,7 @@ TEST(GranularTemperature, ExpansionCoolsToZeroAtMost) {
 TEST(GranularTemperature, DragDampsIt) {
   Gas gas(Gas::scene(1.0), 0.3, 1e-4);  // elastic: drag alone, d(ln Theta)/dt = -2 beta / (f rho)
   const double beta = 5e4, dt = 1e-5;
-  for (int d : {0, 1}) gas.beta[d].fill(beta);
+  gas.beta.fill(beta);
   for (int i = 0; i < 100; ++i) gas.advance(dt);
   EXPECT_NEAR(gas.value(), 1e-4 * std::exp(-2.0 * beta / (0.3 * 2500.0) * 1e-3), 0.001 * 1e-4);
 }
@@ -211,7 +212,7 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       StrainRate strain(s.grid);
       strain.update(s.grid, u);
       GranularTemperature temperature(s.grid, s.scene, s.boundary, s.communicator);
-      const FaceField beta = s.random_faces(0.0, 1e5);
+      const Field beta = s.random_cells(0.0, 1e5);
       const Field production = production_of(s, 1e-3, theta, f, beta, strain, temperature, rheology);
       temperature.advance(1e-3, theta, f, f, FaceField(s.grid), beta, rheology, strain, production, next);
       s.each_cell([&](int, int, int, std::ptrdiff_t c) {

@@ -41,7 +41,7 @@ struct Dragged {
     const Field f_s_cells = s.cells([=](const Vec3&) { return f_s; });
     inertia.update(s.grid, s.scene, f_s_cells, alpha_cells);
     drag_.update(s.boundary, s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)),
-                 f_s_cells, alpha_cells, inertia);
+                 f_s_cells, alpha_cells, inertia, Field(s.grid));
   }
   static Scene scene_of(int dim, bool drag) {
     Scene scene = unit_scene(dim, 4);
@@ -83,7 +83,8 @@ TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
   FaceInertia inertia(d.s.grid);
   const Field alpha(d.s.grid, 1.0);
   inertia.update(d.s.grid, d.s.scene, Field(d.s.grid), alpha);
-  d.drag_.update(d.s.boundary, FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia);
+  d.drag_.update(d.s.boundary, FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia,
+                 Field(d.s.grid));
   d.expect(0.0);
 }
 
@@ -100,7 +101,7 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
     drag.update(s.boundary, s.faces(constant(0.0, 0.0, 0.0)), s.faces(constant(0.0, slip, 0.0)), f_s, alpha,
-                inertia);
+                inertia, Field(s.grid));
     return drag.beta()[1][s.grid.cells.index(1, 2, 0)];
   };
   const Tank s(unit_scene(2, 4));
@@ -115,6 +116,40 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     EXPECT_NEAR(beta_at(flux, 0.0), closures::drag_paper(mean, 0.0, s.scene.liquid, s.scene.solid.diameter),
                 1e-9 * law(mean));
   }
+}
+
+// Faces of a column: f_s 0.5 whose share of 0.4 rests, below 0.1. The fluid moves what does not rest,
+// hindered by no more than that; horizontal faces and the centres of cells know nothing of it.
+TEST(Drag, GrainsAtRestAreNotDraggedByTheFluidAboveThem) {
+  const Tank s(unit_scene(2, 4));
+  const Field f_s = s.cells([](const Vec3& x) { return x[1] < 0.5 ? 0.5 : 0.1; });
+  const Field alpha(s.grid, 1.0);
+  FaceInertia inertia(s.grid);
+  inertia.update(s.grid, s.scene, f_s, alpha);
+  const auto beta = [&](double at_rest, std::ptrdiff_t cell, int d) {
+    Field rest(s.grid);
+    rest[cell] = at_rest;
+    InterphaseDrag drag(s.grid, s.scene);
+    drag.update(s.boundary, FaceField(s.grid), FaceField(s.grid), f_s, alpha, inertia, rest);
+    return std::pair(drag.beta()[d][s.grid.cells.index(1, 2, 0)],
+                     drag.beta_of_cells()[s.grid.cells.index(1, 1, 0)]);
+  };
+  const std::ptrdiff_t below = s.grid.cells.index(1, 1, 0), above = s.grid.cells.index(1, 2, 0);
+  const auto law = [&](double f) {
+    double value = 0.0;
+    closures::with_drag_law(DragLaw::paper, [&](auto paper) {
+      value =
+          closures::drag_coefficient(paper, f, 1.0, 0.0, s.scene.gas, s.scene.liquid, s.scene.solid.diameter);
+    });
+    return value;
+  };
+  const auto of = [&](double moving) { return law(moving) * (1.0 - 0.3) / (1.0 - moving); };
+  EXPECT_NEAR(beta(0.0, below, 1).first, of(0.3), 1e-12 * of(0.3));
+  EXPECT_NEAR(beta(0.4, below, 1).first, of(0.1), 1e-12 * of(0.1));
+  EXPECT_NEAR(beta(-0.4, above, 1).first, of(0.1), 1e-12 * of(0.1));  // pressed upwards
+  EXPECT_NEAR(beta(0.6, below, 1).first, of(0.015), 1e-12 * of(0.015));
+  EXPECT_EQ(beta(0.4, below, 0).first, beta(0.0, below, 0).first);
+  EXPECT_NEAR(beta(0.4, below, 1).second, law(0.5), 1e-12 * law(0.5));
 }
 
 }  // namespace

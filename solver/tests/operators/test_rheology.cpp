@@ -54,7 +54,7 @@ TEST(FreeSide, NoneOfAFullBedNorOfWholeCells) {
 
 TEST(FreeSide, NoneOfGrainsThatFall) {
   EXPECT_EQ(free_sides(submerged(2500.0), {0, 0, 0, packed, packed, 0.3, 0, 0}, 0.0, 0.0), Sides{});
-  EXPECT_EQ(free_sides(submerged(2500.0), {0, 0, 0, 0, 0.2, 0, 0, 0}, 0.0, 100.0), Sides{});
+  EXPECT_EQ(free_sides(submerged(2500.0), {0, 0, 0, 0, 0.2, 0, 0, 0}, 0.0, 0.0), Sides{});
 }
 
 // Grains that agitation holds apart do not rest: the dense-flow pressure (15) bears more than their weight.
