@@ -1,7 +1,7 @@
 #include "solver/operators/bed_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "solver/operators/mixture.hpp"
 
@@ -9,6 +9,16 @@ namespace granvof {
 namespace {
 
 constexpr int vertical = 1;
+
+// Gap of a cell to the least packing, as a share of that, through which grains above fall into it.
+constexpr double gap_that_yields = 0.05;
+// Grains above a free face, as a share of those below it, from which on they fall on it unhindered.
+constexpr double falling_that_frees = 0.05;
+
+// 0 up to 0.9 of `end`, 1 from there on.
+double ramp(double x, double end) {
+  return std::clamp(10.0 * x / end - 9.0, 0.0, 1.0);
+}
 
 bool closed_end(const Grid& grid, bool upper) {
   return !grid.cells.periodic[vertical] && !(upper && grid.open_top);
@@ -23,33 +33,38 @@ Range row_of_cells(const Grid& grid, int j, int ghosts) {
 
 }  // namespace
 
-void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
-                     const Field& p_s, Field& resting, Field& at_rest) {
+void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
+                       const Field& p_s) {
   const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
   const double packed = scene.contact.solid_fraction_min;
   const double half = 0.5 * scene.gravity * grid.h[vertical];
   const double *f = f_s.data(), *a = alpha.data(), *p = p_s.data();
-  double *out = resting.data(), *rest = at_rest.data();
+  double *pressure = resting.data(), *rest = at_rest.data(), *free = held.data(), *r = support_.data();
   resting.fill(0.0);
   at_rest.fill(0.0);
+  held.fill(0.0);
   for (const bool light : {false, true}) {
     if (light ? rho_s >= std::fmax(rho_l, rho_g) : rho_s <= std::fmin(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
-    const auto look = [=](std::ptrdiff_t c, double support) {
-      const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
-      const double own = std::fmin(f[c], packed), bare = own - f[c - below];
-      if (excess <= 0.0 || bare <= 0.0) return;  // its grains press the other way, or carry others
-      const double borne = std::fmin(half * excess * bare, support);
-      out[c] = borne / own;
-      rest[c] = sign * borne / (half * excess);
-    };
-    Range inner = grid.all_cells();
-    light ? --inner.upper[vertical] : ++inner.lower[vertical];
-    for_each(grid.cells, inner, [=](std::ptrdiff_t c) { look(c, p[c + below]); });
-    const double end = closed_end(grid, light) ? std::numeric_limits<double>::infinity() : 0.0;
-    for_each(grid.cells, row_of_cells(grid, light ? grid.cells.n[vertical] - 1 : 0, 0),
-             [=](std::ptrdiff_t c) { look(c, end); });
+    const double end = closed_end(grid, light) ? 1.0 : 0.0;
+    const int n = grid.cells.n[vertical];
+    for (int step = 0; step < n; ++step) {
+      const bool first = step == 0;
+      for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
+        const std::ptrdiff_t b = c + below, above = c - below;
+        const double own = std::fmin(f[c], packed), bare = own - f[above];
+        const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
+        r[c] = first ? end : std::fmax(1.0 - ramp(packed - f[b], gap_that_yields * packed), free[b] * r[b]);
+        // none; they press the other way; or they carry others
+        if (own < least_solid_fraction || excess <= 0.0 || bare <= 0.0) return;
+        free[c] = 1.0 - ramp(f[above], falling_that_frees * own);
+        const double weight = half * excess * bare * r[c];
+        const double borne = first ? weight : std::fmin(weight, p[b]);
+        pressure[c] = borne / own;
+        rest[c] = sign * borne / (half * excess);
+      });
+    }
   }
 }
 

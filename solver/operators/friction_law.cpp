@@ -12,9 +12,6 @@ namespace {
 constexpr double slowest_sliding =
     1e-7;  // of the scene's velocity: below it a Coulomb wall holds like a viscous one
 
-// Grains above a free face, as a share of those below, from which on they fall on it unhindered.
-constexpr double falling_that_frees = 0.05;
-
 // What friction depends on, in a cell or summed over the cells in contact around an edge.
 struct Contacts {
   int count = 0;
@@ -94,9 +91,9 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   boundary_.fill_scalar(mu_);
   if (scene_.numerics.bed_surface == BedSurface::part_cells) {
     double* squeezed = mu_vertical_.data();
-    const double* rest = rheology.share_at_rest.data();
+    const double* held = rheology.part_cells.held.data();
     for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
-      const double hold = side[c] == 0.0 ? 1.0 : std::fmax(0.0, 1.0 - (1.0 - rest[c]) / falling_that_frees);
+      const double hold = side[c] == 0.0 ? 1.0 : held[c];
       squeezed[c] = lambda[c] + hold * (mu[c] - lambda[c]);
     });
     boundary_.fill_scalar(mu_vertical_);

@@ -1,13 +1,10 @@
 #include "solver/operators/rheology.hpp"
 
-#include <cmath>
-
 #include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/drag.hpp"
 #include "solver/closures/restitution.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/closures/solid_pressure.hpp"
-#include "solver/operators/bed_surface.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/thin_layer.hpp"
 
@@ -15,13 +12,13 @@ namespace granvof {
 
 void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
                       const Field& theta, const Field& alpha, const Field& p_s, const Field& packing) {
-  const bool part_cells = scene.numerics.bed_surface == BedSurface::part_cells;
-  if (part_cells) rest_on_the_bed(grid, scene, f_s, alpha, p_s, resting, at_rest);
+  const bool in_part = scene.numerics.bed_surface == BedSurface::part_cells;
+  if (in_part) part_cells.update(grid, scene, f_s, alpha, p_s);
   const Solid& solid = scene.solid;
   const Contact& contact = scene.contact;
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
   const bool dilatancy = scene.model.dilatancy_pressure;
-  const double *f = f_s.data(), *t = theta.data(), *a = alpha.data(), *weight = resting.data(),
+  const double *f = f_s.data(), *t = theta.data(), *a = alpha.data(), *weight = part_cells.resting.data(),
                *touching = packing.data();
   double *e = restitution.data(), *p = enduring_pressure.data(), *tan_psi = dilatancy_tangent.data();
   const bool sheared = scene.model.shear_dilatancy;
@@ -57,15 +54,13 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
     });
     boundary.fill_scalar(agitated_drag);
   }
-  if (part_cells) {
+  if (in_part) {
     const double rho_l = scene.liquid.density, rho_g = scene.gas.density;
-    const double* rest = at_rest.data();
-    double *side = free_side.data(), *share = share_at_rest.data();
+    double* side = free_side.data();
     for_each(grid.cells, [=, &solid, &contact](std::ptrdiff_t c) {
       const double without =
           closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, 0.0, touching[c]);
       const bool part = weight[c] > 0.0 && f[c] < touching[c] && without < p[c];
-      share[c] = part ? std::fabs(rest[c]) / std::fmin(f[c], contact.solid_fraction_min) : 0.0;
       side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
     });
     boundary.exchange(free_side);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/grid/boundary.hpp"
+#include "solver/operators/bed_surface.hpp"
 
 namespace granvof {
 
@@ -13,10 +14,7 @@ struct Rheology {
   Field dilatancy_tangent;  // tan(psi), added to the friction coefficient [-]; 0 without shear dilatancy
   Field arrest_friction;    // least friction coefficient, see thin_layer.hpp [-]; 0 without thin-layer arrest
   Field agitated_drag;      // beta that agitation is dragged by [kg/m3 s]; 0 without agitation drag
-  Field resting;            // weight of grains in partly filled cells [Pa per solid fraction], no ghosts;
-                            // see bed_surface.hpp, 0 with bed_surface = "whole-cells"
-  Field at_rest;            // solid fraction of those grains [-], < 0 if they press upwards; no ghosts
-  Field share_at_rest;      // of the cell's grains, where it has a free face [-]; no ghosts
+  PartCells part_cells;     // grains at rest in partly filled cells; 0 with bed_surface = "whole-cells"
   Field free_side;          // +1, -1: grains at rest fill a part of the cell, and its upper, lower face is
                             // free; else 0 [-]
 
@@ -27,12 +25,10 @@ struct Rheology {
         dilatancy_tangent(grid),
         arrest_friction(grid),
         agitated_drag(grid),
-        resting(grid),
-        at_rest(grid),
-        share_at_rest(grid),
+        part_cells(grid),
         free_side(grid) {}
 
-  // All but the kinetic viscosity, with ghosts filled but for `resting`, from f_s, Theta, alpha, P_s and
+  // All but the kinetic viscosity, with ghosts filled but for part_cells, from f_s, Theta, alpha, P_s and
   // packing of the same level.
   void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
               const Field& theta, const Field& alpha, const Field& p_s, const Field& packing);

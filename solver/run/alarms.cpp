@@ -18,9 +18,9 @@ constexpr double largest_energy_residual = 0.01;  // of the energy turned over
 // float-full-r02. Where half of what is dissipated was never there the flow is numerics.
 constexpr double largest_energy_created = 0.5;
 constexpr double largest_share_of_bounds = 0.01;  // the same, taken by the bounds on Theta
-// Contacts that store more than the height of all that is there: such a bed is not at rest but springs apart,
-// by an amount that the stiffness and the first few steps decide.
-constexpr double largest_elastic_start = 1.0;  // of the potential energy above the floor
+// Contacts that store more than the bed's own height does: such a bed is not at rest but springs apart, by an
+// amount that the stiffness and the first few steps decide.
+constexpr double largest_elastic_start = 1.0;  // of the bed's potential energy above its base
 constexpr double unconverged_share = 0.01;     // of the friction solves
 // Of all steps that were tried; runs of the shipped cases have at most 0.01. A few in a short run are none.
 constexpr double refused_share = 0.05;
@@ -68,7 +68,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("energy created", (e.dilatancy - std::min(e.numerical(), 0.0)) / turnover, largest_energy_created,
        "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
   look("elastic start",
-       start_.elastic / (start_.potential + least_turnover * start_.stored() + least_energy_),
+       start_.elastic / (energy_of_bed(scene_) + least_turnover * start_.stored() + least_energy_),
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
        "how far depends on contact.stiffness and on the first steps");

@@ -57,7 +57,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
     rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
-    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_, rheology_.at_rest);
+    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_, rheology_.part_cells.at_rest);
     stir_grains(now, dt);
   });
   cost_.time("predictor", [&] { predict(now, dt); });
@@ -80,7 +80,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   }
   cost_.time("pressure", [&] {
     report.pressure = pressure_.solve(
-        dt, now.f_s, {now.theta, rheology_.restitution, rheology_.resting, now.packing}, inertia_,
+        dt, now.f_s, {now.theta, rheology_.restitution, rheology_.part_cells.resting, now.packing}, inertia_,
         drag_.beta(), aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
   report.refused_because = reason_to_refuse(now, dt, report);
@@ -117,8 +117,8 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("granular temperature", [&] {
     stress = friction_.power(mass_, next.u_strain, next.u_s, production_);
     strain_.update(grid_, next.u_s);
-    granular = temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta_of_cells(), rheology_,
-                                    strain_, production_, next.theta);
+    granular = temperature_.advance(dt, now.theta, now.f_s, next.f_s, flux_s_, drag_.beta_of_cells(),
+                                    rheology_, strain_, production_, next.theta);
   });
   next.fill_ghosts(boundary_);
   cost_.time("energy budget",
@@ -132,7 +132,8 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 void TimeStep::stir_grains(const State& now, double dt) {
   if (scene_.model.granular_temperature == TemperatureModel::off) return;
   strain_.update(grid_, now.u_strain);
-  temperature_.predict(dt, now.theta, now.f_s, drag_.beta_of_cells(), rheology_.restitution, strain_, stirred_);
+  temperature_.predict(dt, now.theta, now.f_s, drag_.beta_of_cells(), rheology_.restitution, strain_,
+                       stirred_);
   rheology_.update_kinetic_viscosity(grid_, scene_, boundary_, now.f_s, stirred_);
 }
 

@@ -19,11 +19,11 @@ constexpr double half_weight = 0.5 * 1500.0 * 9.81 * h;  // of beads under water
 // Columns under water, all alike: solid fractions from the floor up, and P_s everywhere.
 struct Column {
   Column(const std::array<double, rows>& fractions, double pressure, const Scene& scene = submerged())
-      : s(scene), alpha(s.grid, 1.0), p_s(s.grid, pressure), resting(s.grid), at_rest(s.grid) {
+      : s(scene), alpha(s.grid, 1.0), p_s(s.grid, pressure), cells(s.grid) {
     f_s = Field(s.grid);
     s.each_cell([&](int, int j, int, std::ptrdiff_t c) { f_s[c] = fractions[static_cast<std::size_t>(j)]; });
     s.boundary.fill_scalar(f_s);
-    rest_on_the_bed(s.grid, s.scene, f_s, alpha, p_s, resting, at_rest);
+    cells.update(s.grid, s.scene, f_s, alpha, p_s);
   }
   static Scene submerged() { return box_scene(2, {4, rows, 1}, {4 * h, rows * h, 1.0}); }
   static Scene light() {
@@ -31,10 +31,11 @@ struct Column {
     scene.solid.density = 400.0;
     return scene;
   }
-  double at(int j) const { return resting[s.grid.cells.index(2, j, 0)]; }
-  double held(int j) const { return at_rest[s.grid.cells.index(2, j, 0)]; }
+  double at(int j) const { return cells.resting[s.grid.cells.index(2, j, 0)]; }
+  double held(int j) const { return cells.at_rest[s.grid.cells.index(2, j, 0)]; }
   Tank s;
-  Field f_s, alpha, p_s, resting, at_rest;
+  Field f_s, alpha, p_s;
+  PartCells cells;
 };
 
 TEST(BedSurface, APartlyFilledCellOnAPackedOneBearsHalfItsWeight) {
