@@ -1,4 +1,4 @@
-// Pressure of enduring contacts: elastic part (13), dense-flow pressure (15), weight of grains at rest.
+// Pressure of enduring contacts: elastic part (13), dense-flow pressure (15).
 #pragma once
 
 #include <algorithm>
@@ -35,13 +35,6 @@ inline PressureAndSlope elastic_pressure(double f_s, const Contact& c, double pa
 
 inline PressureAndSlope elastic_pressure(double f_s, const Contact& c) {
   return elastic_pressure(f_s, c, c.solid_fraction_min);
-}
-
-// P_s^W [Pa] of grains at rest in a partly filled cell: their own weight, operators/bed_surface.hpp. resting
-// >= 0 [Pa per solid fraction]; constant beyond f_s,min, where the elastic contact carries what is more.
-inline PressureAndSlope resting_pressure(double f_s, double resting, const Contact& c) {
-  const bool partly = f_s < c.solid_fraction_min;
-  return {resting * (partly ? f_s : c.solid_fraction_min), partly ? resting : 0.0};
 }
 
 inline constexpr double dense_pressure_cap = 0.005;  // least f_s0 - f_s in (15), which is singular at f_s0

@@ -10,12 +10,13 @@
 namespace granvof::closures {
 
 // f_s >= 0. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
-// parts together are max(P_s^K, P_s^D); with `resting` > 0 max(P_s^K, P_s^D, P_s^W). `packing`: where the
-// grains touch, see elastic_pressure().
+// parts together are max(P_s^K, P_s^D); with `resting` = P_s^W > 0 [Pa], the weight of grains at rest in a
+// partly filled cell (operators/bed_surface.hpp), max(P_s^K, P_s^D, P_s^W). `packing`: where the grains
+// touch, see elastic_pressure().
 inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
                                        bool dilatancy, double resting, double packing) {
   PressureAndSlope p = elastic_pressure(f_s, c, packing);
-  PressureAndSlope flow = resting_pressure(f_s, resting, c);
+  PressureAndSlope flow{resting, 0.0};
   if (theta > 0.0 && f_s > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
     const double g0_slope = radial_distribution_slope(f_s, c.solid_fraction_max);
@@ -41,7 +42,7 @@ inline PressureAndSlope solid_pressure(double f_s, double theta, double e, doubl
 // P_s^E = P_s^ES + P_s^EF [Pa], eqs (12)-(14): the pressure that carries friction.
 inline double enduring_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
                                 bool dilatancy, double resting, double packing) {
-  double borne = resting_pressure(f_s, resting, c).value;
+  double borne = resting;
   if (theta > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
     if (dilatancy) borne = std::max(borne, dense_pressure(f_s, theta, e, rho_s, c, packing).value);

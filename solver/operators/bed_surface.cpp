@@ -39,7 +39,7 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
   const double packed = scene.contact.solid_fraction_min;
   const double half = 0.5 * scene.gravity * grid.h[vertical];
   const double *f = f_s.data(), *a = alpha.data(), *p = p_s.data();
-  double *pressure = resting.data(), *rest = at_rest.data(), *free = held.data(), *r = support_.data();
+  double *pressure = resting.data(), *rest = at_rest.data(), *hold = held.data(), *r = support_.data();
   resting.fill(0.0);
   at_rest.fill(0.0);
   held.fill(0.0);
@@ -55,13 +55,13 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
         const std::ptrdiff_t b = c + below, above = c - below;
         const double own = std::fmin(f[c], packed), bare = own - f[above];
         const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
-        r[c] = first ? end : std::fmax(1.0 - ramp(packed - f[b], gap_that_yields * packed), free[b] * r[b]);
+        r[c] = first ? end : std::fmax(1.0 - ramp(packed - f[b], gap_that_yields * packed), hold[b] * r[b]);
         // none; they press the other way; or they carry others
         if (own < least_solid_fraction || excess <= 0.0 || bare <= 0.0) return;
-        free[c] = 1.0 - ramp(f[above], falling_that_frees * own);
+        hold[c] = 1.0 - ramp(f[above], falling_that_frees * own);
         const double weight = half * excess * bare * r[c];
         const double borne = first ? weight : std::fmin(weight, p[b]);
-        pressure[c] = borne / own;
+        pressure[c] = borne;
         rest[c] = sign * borne / (half * excess);
       });
     }

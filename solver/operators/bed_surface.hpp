@@ -33,8 +33,10 @@ namespace granvof {
 
 // All of the old level, in interior cells, 0 but at the surface of a bed.
 struct PartCells {
-  // [Pa per solid fraction]: P_s^W = resting f, f = min(f_s, f_s,min):
+  // P_s^W [Pa]. With f = min(f_s, f_s,min):
   //   P_s^W = 1/2 |rho_s - rho_c| g h r (f - f_s of the cell above), at most P_s of the cell below.
+  // It does not answer to what the step makes of f_s: faces hold the grains of the old level, and a cell that
+  // fills would throw them up.
   // The support r from below is 1 on a closed floor, on a packed cell, and on a part-cell that is supported
   // and whose free face is held; else 0: grains fall into a cell that has room for them. The bound by P_s
   // takes the weight off a bed in free fall.

@@ -22,7 +22,7 @@ namespace granvof {
 struct SolidPressureState {
   const Field& theta;        // granular temperature of the old level [m2/s2]
   const Field& restitution;  // e of (18) [-]
-  const Field& resting;      // weight of grains in partly filled cells [Pa per solid fraction]
+  const Field& resting;      // P_s^W of grains in partly filled cells [Pa]
   const Field& packing;      // where the grains touch [-]
 };
 

@@ -47,8 +47,7 @@ void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceFiel
     });
     for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
       const double before = squared[c];
-      squared[c] =
-          0.125 * (g[c] * g[c] + g[c + s] * g[c + s] + g[c + t] * g[c + t] + g[c + s + t] * g[c + s + t]);
+      squared[c] = squared_shear_of_cell(g, c, s, t);
       all[c] = std::fmax(all[c] + squared[c] - before, 0.0);
     });
   }

@@ -2,6 +2,11 @@
 #include "solver/operators/friction.hpp"
 
 namespace granvof {
+namespace {
+
+constexpr auto all = [](std::ptrdiff_t) { return 1.0; };
+
+}  // namespace
 
 const double* Friction::tilting(int d, int e) const {
   const bool part_cells = scene_.numerics.bed_surface == BedSurface::part_cells;
@@ -54,15 +59,20 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
       double* tau = shear_[plane_index(d, e)].data();
       const std::ptrdiff_t t = grid_.stride(e);
       const double inv_he = 1.0 / grid_.h[e];
-      if (const double* tilt = tilting(d, e)) {
+      const auto shear = [&](auto along_d, auto along_e) {  // shares of the two slopes that shear grains
         for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
-          const double v_slope = (v[c] - v[c - t]) * inv_he, w_slope = (w[c] - w[c - s]) * inv_h;
-          tau[c] = edge[c] * (e == vertical ? v_slope + tilt[c] * w_slope : tilt[c] * v_slope + w_slope);
+          tau[c] =
+              edge[c] * (along_e(c) * (v[c] - v[c - t]) * inv_he + along_d(c) * (w[c] - w[c - s]) * inv_h);
         });
+      };
+      const double* share = tilting(d, e);
+      const auto tilt = [=](std::ptrdiff_t c) { return share[c]; };
+      if (share == nullptr) {
+        shear(all, all);
+      } else if (e == vertical) {
+        shear(tilt, all);
       } else {
-        for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
-          tau[c] = edge[c] * ((v[c] - v[c - t]) * inv_he + (w[c] - w[c - s]) * inv_h);
-        });
+        shear(all, tilt);
       }
     }
   }
@@ -77,26 +87,22 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
     const double* tau2 = three ? shear_[plane_index(d, g)].data() : tau1;
     const std::ptrdiff_t t1 = grid_.stride(e), t2 = three ? grid_.stride(g) : 0;
     const double inv_h1 = 1.0 / grid_.h[e], inv_h2 = three ? 1.0 / grid_.h[g] : 0.0;
-    if (d == vertical && tilting(0, vertical) != nullptr) {
-      const double* k1 = tilting(0, vertical);
-      const double* k2 = three ? tilting(vertical, 2) : k1;
+    const auto force_on_faces = [&](auto share1, auto share2) {  // of the shear stress of either plane
       for_each(faces_[d], [=](std::ptrdiff_t c) {
         const double ahead = 2.0 * mu[c] * (v[c + s] - v[c]) * inv_h + lambda[c] * div[c];
         const double behind = 2.0 * mu[c - s] * (v[c] - v[c - s]) * inv_h + lambda[c - s] * div[c - s];
         const double force = (ahead - behind) * inv_h +
-                             (k1[c + t1] * tau1[c + t1] - k1[c] * tau1[c]) * inv_h1 +
-                             (k2[c + t2] * tau2[c + t2] - k2[c] * tau2[c]) * inv_h2;
+                             (share1(c + t1) * tau1[c + t1] - share1(c) * tau1[c]) * inv_h1 +
+                             (share2(c + t2) * tau2[c + t2] - share2(c) * tau2[c]) * inv_h2;
         out[c] = m[c] != 0.0 ? own[c] * v[c] - force : 0.0;
       });
+    };
+    if (d != vertical || tilting(0, vertical) == nullptr) {
+      force_on_faces(all, all);
       continue;
     }
-    for_each(faces_[d], [=](std::ptrdiff_t c) {
-      const double ahead = 2.0 * mu[c] * (v[c + s] - v[c]) * inv_h + lambda[c] * div[c];
-      const double behind = 2.0 * mu[c - s] * (v[c] - v[c - s]) * inv_h + lambda[c - s] * div[c - s];
-      const double force =
-          (ahead - behind) * inv_h + (tau1[c + t1] - tau1[c]) * inv_h1 + (tau2[c + t2] - tau2[c]) * inv_h2;
-      out[c] = m[c] != 0.0 ? own[c] * v[c] - force : 0.0;
-    });
+    const double *k1 = tilting(0, vertical), *k2 = three ? tilting(vertical, 2) : k1;
+    force_on_faces([=](std::ptrdiff_t c) { return k1[c]; }, [=](std::ptrdiff_t c) { return k2[c]; });
   }
 }
 

@@ -18,7 +18,7 @@ constexpr double least_moving = 0.05;
 
 void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c,
                             const Field& f_s, const Field& alpha, const FaceInertia& inertia,
-                            const Field& at_rest) {
+                            const PartCells& part_cells) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
     const double* us = u_s[d].data();
@@ -27,12 +27,12 @@ void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, cons
     for_each(grid_.cells, grid_.cells_and_ghosts(1), [=](std::ptrdiff_t c) { w[c] = uc[c] - us[c]; });
   }
   closures::with_drag_law(scene_.model.drag_law,
-                          [&](auto law) { fill(law, boundary, f_s, alpha, inertia, at_rest); });
+                          [&](auto law) { fill(law, boundary, f_s, alpha, inertia, part_cells); });
 }
 
 template <typename Law>
 void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
-                          const FaceInertia& inertia, const Field& at_rest) {
+                          const FaceInertia& inertia, const PartCells& part_cells) {
   const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
   const double d_s = scene_.solid.diameter;
   const double* a = alpha.data();
@@ -43,7 +43,8 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
     const bool hindered_by_receiver = scene_.numerics.solid_flux != SolidFlux::upwind;
     if (hindered_by_receiver)
       fraction_.face_values(grid_, f_s, slip_[d], d, 0.0, grid_.inner_faces(d), hindering_);
-    const double *receiver = hindering_.data(), *rest = at_rest.data();
+    const double *receiver = hindering_.data(), *rest = part_cells.at_rest.data(),
+                 *held = part_cells.held.data();
     double* beta = beta_[d].data();
     const int e = (d + 1) % grid_.dim, g = (d + 2) % grid_.dim;
     const bool three = grid_.dim == 3;
@@ -61,8 +62,11 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
         const double w2 = 0.25 * (side2[c] + side2[c - s] + side2[c + s2] + side2[c + s2 - s]);
         square += w2 * w2;
       }
-      const double held = d == vertical ? 0.5 * (rest[c - s] - rest[c]) : 0.0;
-      const double moving = std::max(f[c] - held, least_moving * f[c]);
+      double moving = f[c];
+      if (d == vertical && (rest[c - s] > 0.0 || rest[c] < 0.0)) {  // a free face
+        const double falls = 1.0 - (rest[c - s] > 0.0 ? held[c - s] : held[c]);
+        moving = std::max(f[c] - falls * 0.5 * (rest[c - s] - rest[c]), least_moving * f[c]);
+      }
       const double hindering = std::max(hindered_by_receiver ? receiver[c] : moving, closures::lone_grain);
       const double share = moving * (1.0 - f[c]) / (hindering * (1.0 - hindering));
       beta[c] = share * closures::drag_coefficient(law, hindering, 0.5 * (a[c] + a[c - s]), std::sqrt(square),

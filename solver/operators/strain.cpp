@@ -32,10 +32,8 @@ void StrainRate::update(const Grid& grid, const FaceField& u, const Range& part)
       const double inv_h = 1.0 / grid.h[d], inv_he = 1.0 / grid.h[e];
       for_each(grid.cells, Grid::edges(part, d, e),
                [=](std::ptrdiff_t c) { g[c] = (v[c] - v[c - t]) * inv_he + (w[c] - w[c - s]) * inv_h; });
-      // 2 S_de^2 = g^2 / 2, mean of the cell's four edges
       for_each(grid.cells, part, [=](std::ptrdiff_t c) {
-        plane[c] =
-            0.125 * (g[c] * g[c] + g[c + s] * g[c + s] + g[c + t] * g[c + t] + g[c + s + t] * g[c + s + t]);
+        plane[c] = squared_shear_of_cell(g, c, s, t);
         sq[c] += plane[c];
       });
     }

@@ -24,4 +24,10 @@ struct StrainRate {
   void update(const Grid& grid, const FaceField& u, const Range& part);
 };
 
+// 2 S_de^2 = g^2 / 2 of cell c [1/s2], the mean over its four edges; g: shear of a plane on edges, s and t:
+// strides of its directions.
+inline double squared_shear_of_cell(const double* g, std::ptrdiff_t c, std::ptrdiff_t s, std::ptrdiff_t t) {
+  return 0.125 * (g[c] * g[c] + g[c + s] * g[c + s] + g[c + t] * g[c + t] + g[c + s + t] * g[c + s + t]);
+}
+
 }  // namespace granvof

@@ -26,16 +26,24 @@ constexpr double unconverged_share = 0.01;     // of the friction solves
 constexpr double refused_share = 0.05;
 constexpr double few_refused = 20.0;
 constexpr double energy_that_stops = 10.0;  // in motion, of all that the run was given
+// Below these shares nothing counts as turned over.
+constexpr double least_share_of_store = 1e-6;
+constexpr double least_share_of_bed = 1e-3;
+
+// Without gravity a tank at rest stores nothing to take shares of: then of the scene's own energy.
+double least_energy(const Scene& scene, const EnergyTerms& start) {
+  return least_share_of_store * (start.stored() + scales_of(scene).energy) +
+         least_share_of_bed * energy_of_bed(scene);
+}
 
 }  // namespace
 
-Alarms::Alarms(const Scene& scene, const EnergyTerms& start)
-    : scene_(scene), start_(start), least_energy_(least_turnover * scales_of(scene).energy) {}
+Alarms::Alarms(const Scene& scene, const EnergyTerms& start) : scene_(scene), start_(start) {}
 
-double energy_turnover(const EnergyTerms& start, const EnergyTerms& now) {
+double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now) {
   return now.physical() + std::fabs(now.numerical_time) + std::fabs(now.numerical_momentum) +
          std::fabs(now.numerical_volume) + std::fabs(now.numerical_stress) +
-         std::fabs(now.numerical_granular) + now.kinetic + now.granular + least_turnover * start.stored();
+         std::fabs(now.numerical_granular) + now.kinetic + now.granular + least_energy(scene, start);
 }
 
 void Alarms::watch(const char* monitor, double value, double limit, double time, const char* meaning) {
@@ -56,7 +64,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
     watch(monitor, value, limit, s.time, meaning);
   };
   const EnergyTerms& e = s.energy;
-  const double turnover = energy_turnover(start_, e) + least_energy_;
+  const double turnover = energy_turnover(scene_, start_, e);
   look("solid volume", monitors.solid_volume_error(), largest_volume_error, "grains are lost or made");
   look("liquid volume", monitors.liquid_volume_error(), largest_volume_error, "liquid is lost or made");
   look("solid fraction", monitors.solid_fraction_max(), scene_.contact.solid_fraction_max,
@@ -67,8 +75,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
        "momentum or continuity is not solved well enough: the energy budget does not close");
   look("energy created", (e.dilatancy - std::min(e.numerical(), 0.0)) / turnover, largest_energy_created,
        "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
-  look("elastic start",
-       start_.elastic / (energy_of_bed(scene_) + least_turnover * start_.stored() + least_energy_),
+  look("elastic start", start_.elastic / (energy_of_bed(scene_) + least_energy(scene_, start_)),
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
        "how far depends on contact.stiffness and on the first steps");
@@ -80,7 +87,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("refused steps", static_cast<double>(counts.refused),
        std::max(few_refused, refused_share * static_cast<double>(counts.steps + counts.refused)),
        "steps are tried in vain: numerics.newton_max, cfl or dt_max do not suit the flow");
-  const double given = start_.stored() + e.walls + least_energy_;
+  const double given = start_.stored() + e.walls + least_energy(scene_, start_);
   const double in_motion = e.kinetic + e.granular;
   if (in_motion > energy_that_stops * given)
     return fmt::format("blow-up: {:.3g} J in motion at t = {:.6g} s, and the run was given {:.3g} J",

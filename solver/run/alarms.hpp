@@ -13,12 +13,11 @@
 
 namespace granvof {
 
-// Shares of the energy that was turned over: all dissipation, numerical included by magnitude, and the
-// largest kinetic energy. A tank at rest turns nothing over, hence the share of what it stores at least: a
-// pool whose level trembles by 0.04 mm/s, as the sharpened interface does after ten seconds, moves 1e-9 of
-// it.
-inline constexpr double least_turnover = 1e-6;
-double energy_turnover(const EnergyTerms& start, const EnergyTerms& now);
+// Energy that a run turned over [J], which its errors are shares of: all dissipation, numerical included by
+// magnitude, and what is in motion. A scene at rest turns nothing over, hence at least a share of what it
+// stores (a pool whose level trembles by 0.04 mm/s, as the sharpened interface does after ten seconds, moves
+// 1e-9 of it) and of the bed's own energy.
+double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now);
 
 struct StepCounts {
   std::int64_t steps = 0, unconverged_friction = 0, refused = 0;
@@ -41,7 +40,6 @@ class Alarms {
 
   const Scene& scene_;
   EnergyTerms start_;
-  double least_energy_;  // without gravity a tank at rest holds nothing to take shares of [J]
   std::vector<Warning> raised_;
 };
 

@@ -225,7 +225,7 @@ RunProgress Run::progress() const {
                 {"friction_per_step", static_cast<double>(counters_.friction) / steps},
                 {"unconverged_friction_solves", static_cast<double>(counters_.unconverged_friction)},
                 {"last_dt", control_.last()},
-                {"energy_turnover", energy_turnover(start_energy_, now_.energy)}};
+                {"energy_turnover", energy_turnover(scene_, start_energy_, now_.energy)}};
   for (const EnergyTerm& term : energy_terms) p.monitors[term.name] = now_.energy.*term.value;
   p.warnings = alarms_.raised();
   return p;

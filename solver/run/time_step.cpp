@@ -57,7 +57,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
     rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
-    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_, rheology_.part_cells.at_rest);
+    drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_, rheology_.part_cells);
     stir_grains(now, dt);
   });
   cost_.time("predictor", [&] { predict(now, dt); });

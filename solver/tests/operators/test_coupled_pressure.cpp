@@ -38,7 +38,7 @@ struct Step {
     FaceInertia inertia(s.grid);
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
-    drag.update(s.boundary, u_s, u_c, f_s, alpha, inertia, Field(s.grid));
+    drag.update(s.boundary, u_s, u_c, f_s, alpha, inertia, PartCells(s.grid));
     for (int d = 0; d < s.grid.dim; ++d)  // where there are no grains both move as one from the start
       s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
         if (inertia.f_s[d][c] < least_solid_fraction) u_s[d][c] = u_c[d][c];

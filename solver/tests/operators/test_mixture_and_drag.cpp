@@ -41,7 +41,7 @@ struct Dragged {
     const Field f_s_cells = s.cells([=](const Vec3&) { return f_s; });
     inertia.update(s.grid, s.scene, f_s_cells, alpha_cells);
     drag_.update(s.boundary, s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)),
-                 f_s_cells, alpha_cells, inertia, Field(s.grid));
+                 f_s_cells, alpha_cells, inertia, PartCells(s.grid));
   }
   static Scene scene_of(int dim, bool drag) {
     Scene scene = unit_scene(dim, 4);
@@ -84,7 +84,7 @@ TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
   const Field alpha(d.s.grid, 1.0);
   inertia.update(d.s.grid, d.s.scene, Field(d.s.grid), alpha);
   d.drag_.update(d.s.boundary, FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia,
-                 Field(d.s.grid));
+                 PartCells(d.s.grid));
   d.expect(0.0);
 }
 
@@ -101,7 +101,7 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
     drag.update(s.boundary, s.faces(constant(0.0, 0.0, 0.0)), s.faces(constant(0.0, slip, 0.0)), f_s, alpha,
-                inertia, Field(s.grid));
+                inertia, PartCells(s.grid));
     return drag.beta()[1][s.grid.cells.index(1, 2, 0)];
   };
   const Tank s(unit_scene(2, 4));
@@ -126,9 +126,10 @@ TEST(Drag, GrainsAtRestAreNotDraggedByTheFluidAboveThem) {
   const Field alpha(s.grid, 1.0);
   FaceInertia inertia(s.grid);
   inertia.update(s.grid, s.scene, f_s, alpha);
-  const auto beta = [&](double at_rest, std::ptrdiff_t cell, int d) {
-    Field rest(s.grid);
-    rest[cell] = at_rest;
+  const auto beta = [&](double at_rest, std::ptrdiff_t cell, int d, double held = 0.0) {
+    PartCells rest(s.grid);
+    rest.at_rest[cell] = at_rest;
+    rest.held[cell] = held;
     InterphaseDrag drag(s.grid, s.scene);
     drag.update(s.boundary, FaceField(s.grid), FaceField(s.grid), f_s, alpha, inertia, rest);
     return std::pair(drag.beta()[d][s.grid.cells.index(1, 2, 0)],
@@ -148,6 +149,8 @@ TEST(Drag, GrainsAtRestAreNotDraggedByTheFluidAboveThem) {
   EXPECT_NEAR(beta(0.4, below, 1).first, of(0.1), 1e-12 * of(0.1));
   EXPECT_NEAR(beta(-0.4, above, 1).first, of(0.1), 1e-12 * of(0.1));  // pressed upwards
   EXPECT_NEAR(beta(0.6, below, 1).first, of(0.015), 1e-12 * of(0.015));
+  EXPECT_NEAR(beta(0.4, below, 1, 1.0).first, of(0.3), 1e-12 * of(0.3));  // nothing falls: the bed's own
+  EXPECT_NEAR(beta(0.4, above, 1).first, of(0.3), 1e-12 * of(0.3));       // what rests above is no free face
   EXPECT_EQ(beta(0.4, below, 0).first, beta(0.0, below, 0).first);
   EXPECT_NEAR(beta(0.4, below, 1).second, law(0.5), 1e-12 * law(0.5));
 }
