@@ -92,7 +92,7 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
   const double scale =
       max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return rhs[c]; });
   if (scale == 0.0) return;
-  solver_.solve(faces, mass, rhs, t, {1e-6 * scale, 1e-4, 50});
+  solver_.solve(faces, mass, rhs, t, {1e-8 * scale, 1e-6, 50});
   for_each(grid_.cells, [=](std::ptrdiff_t c) { t[c] = std::fmax(t[c], 0.0); });
 }
 
