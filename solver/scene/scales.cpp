@@ -54,8 +54,8 @@ double energy_of_bed(const Scene& scene) {
   if (!scene.bed) return 0.0;
   Vec3 size;
   for (int d = 0; d < 3; ++d) size[d] = scene.bed->box.upper[d] - scene.bed->box.lower[d];
-  return scene.bed->solid_fraction * scene.solid.density * scene.gravity * size[0] * size[1] * size[2] * 0.5 *
-         size[1];
+  const double load = least_excess_density(scene) * scene.gravity * size[1];
+  return 0.5 * scene.bed->solid_fraction * load * size[0] * size[1] * size[2];
 }
 
 }  // namespace granvof

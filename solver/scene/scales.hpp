@@ -21,7 +21,8 @@ struct Scales {
 
 Scales scales_of(const Scene& scene);
 
-// Potential energy of the bed above its own base, as a box of its length and height [J]; 0 without a bed.
+// Potential energy of the bed above its own base, as a box of its length and height, in the fluid that it is
+// lightest in [J]; 0 without a bed.
 double energy_of_bed(const Scene& scene);
 
 }  // namespace granvof

@@ -29,7 +29,8 @@ std::vector<Heap> heaps() {
   const std::vector<Overrides> choices{
       {"advised", {"model.preset=advised"}},
       {"sourced", {"model.preset=sourced"}},
-      {"sharp", {"numerics.bed_surface=part-cells", "numerics.solid_flux=compressive"}}};
+      {"sharp",
+       {"numerics.bed_surface=part-cells", "model.packing=carried", "numerics.solid_flux=compressive"}}};
   std::vector<Heap> all;
   for (const int slope : {12, 18})
     for (const Overrides& a : around)
