@@ -1,5 +1,6 @@
 #include "solver/operators/bed_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/operators/mixture.hpp"
@@ -32,7 +33,7 @@ void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, con
   resting.fill(0.0);
   const int n = grid.cells.n[vertical];
   for (const bool light : {false, true}) {
-    if (light ? rho_s >= std::fmax(rho_l, rho_g) : rho_s <= std::fmin(rho_l, rho_g)) continue;
+    if (light ? rho_s >= std::max(rho_l, rho_g) : rho_s <= std::min(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
     const double end = closed_end(grid, light) ? 1.0 : 0.0;
@@ -43,9 +44,9 @@ void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, con
         r[c] = first ? end : (beneath >= 1.0 ? 1.0 : beneath * r[c + below]);
         const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
         if (excess <= 0.0) return;  // its grains press the other way
-        const double bare = 1.0 - std::fmin(f[c - below] / packed, 1.0);
+        const double bare = 1.0 - std::min(f[c - below] / packed, 1.0);
         const double weight = half * excess * r[c] * bare;
-        out[c] = first ? weight : std::fmin(weight, p[c + below] / packed);
+        out[c] = first ? weight : std::min(weight, p[c + below] / packed);
       });
     }
   }
@@ -63,7 +64,7 @@ void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, con
     const int j = upper ? grid.cells.n[vertical] - 1 : 0;
     for_each(grid.cells, row_of_cells(grid, j, 1), [=](std::ptrdiff_t c) {
       const double weight = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g));
-      p[c + out] = p[c] + 2.0 * std::fmin(std::fmax(weight, 0.0), p[c]);
+      p[c + out] = p[c] + 2.0 * std::min(std::max(weight, 0.0), p[c]);
     });
   }
 }

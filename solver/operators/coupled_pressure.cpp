@@ -232,7 +232,7 @@ void CoupledPressure::linearise(const SolidPressureState& law) {
     const auto p =
         closures::solid_pressure(pf[c], theta[c], e[c], rho_s, contact, dilatancy, rest[c], packing[c]);
     pp[c] = p.value;
-    slope[c] = implicit ? std::fmax(p.slope, least) : least;  // next to none: P_s stays at the point
+    slope[c] = implicit ? std::max(p.slope, least) : least;  // next to none: P_s stays at the point
   });
 }
 
@@ -261,10 +261,10 @@ double CoupledPressure::move_points(double dt, const SolidPressureState& law, co
       return closures::solid_pressure(f, theta[c], e[c], rho_s, contact, dilatancy, rest[c], packing[c]);
     };
     const double p_lin = p_old[c] + dp[c];
-    auto there = p_at(std::fmax(f_new[c], 0.0));
-    const double p_felt = p_lin < -tension ? p_lin : std::fmax(p_lin, 0.0);
-    const double off = std::fabs(there.value - p_felt) / std::fmax(there.slope, steep);
-    pf[c] = std::fmax(f_new[c], 0.0);
+    auto there = p_at(std::max(f_new[c], 0.0));
+    const double p_felt = p_lin < -tension ? p_lin : std::max(p_lin, 0.0);
+    const double off = std::fabs(there.value - p_felt) / std::max(there.slope, steep);
+    pf[c] = std::max(f_new[c], 0.0);
     if (off > tolerance) {
       double compliance = 0.0;
       for (int d = 0; d < dim; ++d) compliance += k22[d][c] + k22[d][c + stride[d]];
@@ -272,7 +272,7 @@ double CoupledPressure::move_points(double dt, const SolidPressureState& law, co
       there = p_at(pf[c]);
     }
     pp[c] = there.value;
-    slope[c] = std::fmax(there.slope, least);
+    slope[c] = std::max(there.slope, least);
     return off;
   });
 }
@@ -329,7 +329,7 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
   double *pc = p_c.data(), *ps = p_s.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     pc[c] += dpc[c];
-    ps[c] = std::fmax(ps[c] + dps[c], 0.0);
+    ps[c] = std::max(ps[c] + dps[c], 0.0);
   });
   return report;
 }

@@ -1,5 +1,6 @@
 #include "solver/operators/flux_balance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace granvof {
@@ -38,7 +39,7 @@ void outflow_rate(const Grid& grid, const FaceField& flux, Field& rate) {
     const std::ptrdiff_t s = grid.stride(d);
     const double inv_h = 1.0 / grid.h[d];
     for_each(grid.cells,
-             [=](std::ptrdiff_t c) { out[c] += inv_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0)); });
+             [=](std::ptrdiff_t c) { out[c] += inv_h * (std::max(q[c + s], 0.0) - std::min(q[c], 0.0)); });
   }
 }
 

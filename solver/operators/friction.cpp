@@ -111,7 +111,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   }
   // Where a bed locks within a step the guess leaves a residual far above every force in the problem
   // (viscosity times the old velocity): a share of that alone would leave momentum unsolved.
-  const double least_share = relative_tolerance * std::fmin(first, load);
+  const double least_share = relative_tolerance * std::min(first, load);
   const linear::Report report = solver_->solve(
       [&](const linear::Components& p, const linear::Components& q) {
         fill_wall_ghosts(p, false);
@@ -121,7 +121,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
       {r[0], r[1], r[2]}, component_pointers(correction_, grid_.dim),
-      {std::fmax(velocity_tolerance * velocity_, least_share), 0.0, most_iterations},
+      {std::max(velocity_tolerance * velocity_, least_share), 0.0, most_iterations},
       {weight_[0].data(), weight_[1].data(), grid_.dim == 3 ? weight_[2].data() : nullptr});
   for (int d = 0; d < grid_.dim; ++d) {
     const double *x = correction_[d].data(), *m = marked_[d].data();

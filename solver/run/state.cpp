@@ -1,5 +1,6 @@
 #include "solver/run/state.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/closures/shear_dilatancy.hpp"
@@ -30,7 +31,7 @@ void settle(const Grid& grid, const Scene& scene, State& s) {
         const std::ptrdiff_t c = l.index(i, j, k);
         const double excess =
             scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
-        const double weight = std::fmax(excess, 0.0) * s.f_s[c] * scene.gravity * grid.h[1];
+        const double weight = std::max(excess, 0.0) * s.f_s[c] * scene.gravity * grid.h[1];
         if (s.f_s[c] > scene.contact.solid_fraction_min) {
           s.p_s[c] = load + 0.5 * weight;
           s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
