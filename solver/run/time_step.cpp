@@ -81,7 +81,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("pressure", [&] {
     report.pressure = pressure_.solve(
         dt, now.f_s, {now.theta, rheology_.restitution, rheology_.resting, now.packing}, inertia_,
-        drag_.beta(), aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
+        drag_.beta(), aperture_, now.u_s, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
   report.refused_because = reason_to_refuse(now, dt, report);
   if (!report.refused_because.empty()) return report;
