@@ -28,6 +28,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       divergence_(grid),
       marked_(grid),
       communicator_(communicator),
+      direct_(grid),
       component_mass_(grid),
       weight_(grid),
       residual_(grid),
@@ -93,6 +94,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   apply(mass, u, r);
   set_preconditioner(mass);
   set_weights(mass);
+  const bool thin = direct_.factorise(box_, form(mass));
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
   for (int d = 0; d < grid_.dim; ++d) {
@@ -118,6 +120,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
         apply(mass, p, q);
       },
       [&](const linear::ConstComponents& res, const linear::Components& z) {
+        if (thin) return direct_.apply(res, z);
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
       {r[0], r[1], r[2]}, component_pointers(correction_, grid_.dim),

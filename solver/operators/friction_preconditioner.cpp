@@ -14,6 +14,16 @@ constexpr double share_of_the_hold = 1e-6;
 
 }  // namespace
 
+FrictionForm Friction::form(const FaceField& mass) const {
+  const double* tilt = tilting(0, vertical);
+  return {mu_.data(),
+          lambda_.data(),
+          mu_edge_[plane_index(0, vertical)].data(),
+          tilt,
+          {marked_[0].data(), marked_[1].data()},
+          {mass[0].data(), mass[1].data()}};
+}
+
 // Own diffusion of every component; couplings to faces that are known go to the diagonal.
 void Friction::set_preconditioner(const FaceField& mass) {
   for (int d = 0; d < grid_.dim; ++d) {
