@@ -24,8 +24,9 @@ void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& fl
     const std::ptrdiff_t s = grid.stride(d);
     const double dt_h = dt / grid.h[d];
     for_each(grid.cells, [=](std::ptrdiff_t c) {
-      const double ahead = q[c + s] * (q[c + s] > 0.0 ? v[c] : v[c + s]);
-      const double behind = q[c] * (q[c] > 0.0 ? v[c - s] : v[c]);
+      const double own = v[c], upper = v[c + s], lower = v[c - s], out_flux = q[c + s], in_flux = q[c];
+      const double ahead = out_flux * (out_flux > 0.0 ? own : upper);
+      const double behind = in_flux * (in_flux > 0.0 ? lower : own);
       out[c] -= dt_h * (ahead - behind);
     });
   }

@@ -92,9 +92,10 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
                            r = component_pointers(residual_, grid_.dim);
   fill_wall_ghosts(u, true);
   apply(mass, u, r);
-  set_preconditioner(mass);
+  set_own_diffusion(mass);
   set_weights(mass);
   const bool thin = direct_.factorise(box_, form(mass));
+  if (!thin) set_multigrids();
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
   for (int d = 0; d < grid_.dim; ++d) {

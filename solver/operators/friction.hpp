@@ -57,7 +57,8 @@ class Friction {
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia);
-  void set_preconditioner(const FaceField& mass);
+  void set_own_diffusion(const FaceField& mass);
+  void set_multigrids();
   FrictionForm form(const FaceField& mass) const;
   void set_weights(const FaceField& mass);
   // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see

@@ -37,8 +37,8 @@ class SolidFractionFlux {
     double* out = face.data();
     const std::ptrdiff_t s = grid.stride(d);
     for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-      const double w = v[c];
-      out[c] = w > 0.0 ? f[c - s] : (w < 0.0 ? f[c] : 0.5 * (f[c] + f[c - s]));
+      const double w = v[c], lower = f[c - s], upper = f[c];
+      out[c] = w > 0.0 ? lower : (w < 0.0 ? upper : 0.5 * (upper + lower));
     });
   }
 

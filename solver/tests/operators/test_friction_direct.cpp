@@ -1,5 +1,7 @@
 // Thin beds in two dimensions, whose friction system is factorised: how many iterations are left, and that
 // the answer is that of the iteration. (That both solve the right problem: test_friction.cpp.)
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "solver/tests/operators/friction_bed.hpp"
