@@ -11,7 +11,8 @@
 namespace granvof {
 namespace {
 
-constexpr int upwinding_settles = 4;  // iteration from which the upwind directions are kept
+// Iteration from which the upwind directions are kept, until all else is solved.
+constexpr int upwinding_settles = 4;
 // Grains do not pull. The solution of the linearised law may: a bed that opens within the step leaves P_lin
 // far below zero where the law says 0. Only as much tension as this share of the bed's load passes for none;
 // a layer of grains weighs ten times that.
@@ -324,8 +325,9 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
   dp_s_.fill(0.0);
   set_response(dt, inertia, beta, aperture);
   linearise(law);
+  bool turned = false;  // all is solved but for faces that carry the fraction of the wrong side
   for (int iteration = 0; iteration < numerics.newton_max; ++iteration) {
-    set_fluxes(dt, f_s, iteration < upwinding_settles);
+    set_fluxes(dt, f_s, iteration < upwinding_settles || turned);
     set_balances(dt, f_s, p_s, u_s, u_c);
     const linear::Report r = solver_.solve(system(), dp_c_.data(), dp_s_.data(),
                                            {numerics.volume_tolerance / dt, numerics.linear_tolerance, 200});
@@ -335,11 +337,11 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
     report.mismatch = implicit ? move_points(dt, law, p_s) : 0.0;
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
-    if (report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance &&
-        turned_flux(dt, f_s) <= turned_flux_that_matters) {
-      report.converged = true;
-      break;
-    }
+    const bool solved =
+        report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance;
+    turned = solved && !(turned_flux(dt, f_s) <= turned_flux_that_matters);
+    report.converged = solved && !turned;
+    if (report.converged) break;
   }
   u_s = us_;
   u_c = uc_;
