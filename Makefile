@@ -75,7 +75,7 @@ faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/fa
 	ci/build --programs --reference=$(REFERENCE) release
 	ci/faults --build-dir $(RELEASE) --out "$(OUT)"
 
-bench: setup  ## performance of the parts
+bench: setup  ## performance of the parts, and of whole runs against their targets (ci/targets.toml)
 	ci/build --benchmarks release
 	ci/bench $(RELEASE)
 

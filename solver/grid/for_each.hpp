@@ -77,24 +77,27 @@ inline double sum_over(const Layout& l, const Range& r, Body&& body) {
 // Largest value over the range of body(index), at least `floor`; a NaN anywhere is returned as NaN.
 template <typename Body>
 inline double max_over(const Layout& l, const Range& r, double floor, Body&& body) {
+  const int rows_y = r.upper[1] - r.lower[1];
+  const int rows_z = r.upper[2] - r.lower[2];
+  const int length = r.upper[0] - r.lower[0];
+  const int rows = rows_y * rows_z;
+  const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
   double largest = floor;
-  bool finite = true;
-  for (int k = r.lower[2]; k < r.upper[2]; ++k) {
-    for (int j = r.lower[1]; j < r.upper[1]; ++j) {
-      const std::ptrdiff_t start = l.index(r.lower[0], j, k);
-      double line = floor;
-      bool ok = true;
-#pragma omp simd reduction(max : line) reduction(&& : ok)
-      for (int i = 0; i < r.upper[0] - r.lower[0]; ++i) {
-        const double v = body(start + i);
-        line = v > line ? v : line;
-        ok = ok && v == v;
-      }
-      largest = line > largest ? line : largest;
-      finite = finite && ok;
+  double not_numbers = 0.0;  // a count: a flag keeps the loop from being vectorised
+#pragma omp parallel for schedule(static) reduction(max : largest) reduction(+ : not_numbers) if (parallel)
+  for (int row = 0; row < rows; ++row) {
+    const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
+    double line = floor, odd = 0.0;
+#pragma omp simd reduction(max : line) reduction(+ : odd)
+    for (int i = 0; i < length; ++i) {
+      const double v = body(start + i);
+      line = v > line ? v : line;
+      odd += v == v ? 0.0 : 1.0;
     }
+    largest = line > largest ? line : largest;
+    not_numbers += odd;
   }
-  return finite ? largest : __builtin_nan("");
+  return not_numbers == 0.0 ? largest : __builtin_nan("");
 }
 
 }  // namespace granvof

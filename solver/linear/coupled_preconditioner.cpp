@@ -56,28 +56,27 @@ void CoupledSolver::set(const CoupledSystem& s) {
     });
     if (any_periodic(layout_)) communicator_.exchange(layout_, to);
   }
-  for_rows(layout_, [&](int j, int k) {
-    const std::ptrdiff_t here = layout_.index(0, j, k);
-    const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
-    const rows::FaceRow b = rows::face_row(s.k12, user_, j, k, zeros_.data());
-    float* theta = theta_.data() + here;
-    const auto total = [](const rows::FaceRow& f, double x_upper, int i) {
-      double sum = 0.0;
-      if (f.x) sum += f.x[i] + x_upper;
-      if (f.y) sum += f.y[i] + f.y_upper[i];
-      if (f.z) sum += f.z[i] + f.z_upper[i];
-      return sum;
-    };
-    const auto store = [=](int i, double above, double below) {
-      theta[i] = below > 0.0 ? static_cast<float>(above / below) : 0.0F;
-    };
-    if (coupled_[0]) {
+  with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+    for_rows(layout_, [&](int j, int k) {
+      const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
+      const rows::FaceRow b = rows::face_row(s.k12, user_, j, k, zeros_.data());
+      float* theta = theta_.data() + layout_.index(0, j, k);
+      const auto store = [=](int i, double above, double below) {
+        theta[i] = static_cast<float>((below > 0.0 ? above : 0.0) / (below > 0.0 ? below : 1.0));
+      };
+      const auto total = [](const rows::FaceRow& f, double x_upper, int i) {
+        double sum = 0.0;
+        if constexpr (X) sum += f.x[i] + x_upper;
+        if constexpr (Y) sum += f.y[i] + f.y_upper[i];
+        if constexpr (Z) sum += f.z[i] + f.z_upper[i];
+        return sum;
+      };
+      const int inner = X ? n - 1 : n;
 #pragma omp simd
-      for (int i = 0; i < n - 1; ++i) store(i, total(b, b.x[i + 1], i), total(a, a.x[i + 1], i));
-      store(n - 1, total(b, b.x_end, n - 1), total(a, a.x_end, n - 1));
-    } else {
-      for (int i = 0; i < n; ++i) store(i, total(b, 0.0, i), total(a, 0.0, i));
-    }
+      for (int i = 0; i < inner; ++i)
+        store(i, total(b, X ? b.x[i + 1] : 0.0, i), total(a, X ? a.x[i + 1] : 0.0, i));
+      if constexpr (X) store(n - 1, total(b, b.x_end, n - 1), total(a, a.x_end, n - 1));
+    });
   });
 }
 

@@ -44,7 +44,7 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
   at_rest.fill(0.0);
   held.fill(0.0);
   for (const bool light : {false, true}) {
-    if (light ? rho_s >= std::fmax(rho_l, rho_g) : rho_s <= std::fmin(rho_l, rho_g)) continue;
+    if (light ? rho_s >= std::max(rho_l, rho_g) : rho_s <= std::min(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
     const double end = closed_end(grid, light) ? 1.0 : 0.0;
@@ -53,14 +53,14 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
       const bool first = step == 0;
       for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
         const std::ptrdiff_t b = c + below, above = c - below;
-        const double own = std::fmin(f[c], packed), bare = own - f[above];
+        const double own = std::min(f[c], packed), bare = own - f[above];
         const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
-        r[c] = first ? end : std::fmax(1.0 - ramp(packed - f[b], gap_that_yields * packed), hold[b] * r[b]);
+        r[c] = first ? end : std::max(1.0 - ramp(packed - f[b], gap_that_yields * packed), hold[b] * r[b]);
         // none; they press the other way; or they carry others
         if (own < least_solid_fraction || excess <= 0.0 || bare <= 0.0) return;
         hold[c] = 1.0 - ramp(f[above], falling_that_frees * own);
         const double weight = half * excess * bare * r[c];
-        const double borne = first ? weight : std::fmin(weight, p[b]);
+        const double borne = first ? weight : std::min(weight, p[b]);
         pressure[c] = borne;
         rest[c] = sign * borne / (half * excess);
       });
@@ -80,7 +80,7 @@ void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, con
     const int j = upper ? grid.cells.n[vertical] - 1 : 0;
     for_each(grid.cells, row_of_cells(grid, j, 1), [=](std::ptrdiff_t c) {
       const double weight = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g));
-      p[c + out] = p[c] + 2.0 * std::fmin(std::fmax(weight, 0.0), p[c]);
+      p[c + out] = p[c] + 2.0 * std::min(std::max(weight, 0.0), p[c]);
     });
   }
 }

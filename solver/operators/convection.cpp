@@ -103,7 +103,7 @@ void bound_convection(const Grid& grid, const FaceField& u, int d, const Range& 
       const std::ptrdiff_t s = stride[e];
       courant += 0.25 * std::fabs(w[c] + w[c - sd] + w[c + s] + w[c + s - sd]) * per_h[e];
     }
-    a[c] *= largest_courant / std::fmax(courant, largest_courant);
+    a[c] *= largest_courant / std::max(courant, largest_courant);
   });
 }
 

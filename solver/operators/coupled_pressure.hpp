@@ -39,12 +39,13 @@ class CoupledPressure {
   CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
                   const Communicator& communicator);
 
-  // In: predicted u_s, u_c (old pressure gradients included), old p_c, p_s and f_s with ghosts filled,
-  // inertia and beta on faces. Out: new u_s, u_c on their faces, p_c, p_s, and the volume fluxes per area f_s
-  // u_s and f_c u_c [m/s] through every face that close both balances.
+  // In: predicted u_s, u_c (old pressure gradients included), old p_c, p_s, f_s and u_s_old with ghosts
+  // filled, inertia and beta on faces. Out: new u_s, u_c on their faces, p_c, p_s, and the volume fluxes per
+  // area f_s u_s and f_c u_c [m/s] through every face that close both balances.
   PressureReport solve(double dt, const Field& f_s, const SolidPressureState& law, const FaceInertia& inertia,
-                       const FaceField& beta, const Aperture& aperture, FaceField& u_s, FaceField& u_c,
-                       Field& p_c, Field& p_s, FaceField& flux_s, FaceField& flux_c);
+                       const FaceField& beta, const Aperture& aperture, const FaceField& u_s_old,
+                       FaceField& u_s, FaceField& u_c, Field& p_c, Field& p_s, FaceField& flux_s,
+                       FaceField& flux_c);
 
  private:
   void set_response(double dt, const FaceInertia& inertia, const FaceField& beta, const Aperture& aperture);
@@ -53,6 +54,7 @@ class CoupledPressure {
                     const FaceField& uc_predicted);
   void correct(double dt, const Field& f_s, const FaceField& us_predicted, const FaceField& uc_predicted,
                FaceField& flux_s, FaceField& flux_c);
+  void extrapolate_points(double dt, const Field& f_s, const FaceField& u_s_old);
   void linearise(const SolidPressureState& law);
   double turned_flux(double dt, const Field& f_s);
   double move_points(double dt, const SolidPressureState& law, const Field& p_s);

@@ -1,5 +1,6 @@
 #include "solver/operators/flux_balance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace granvof {
@@ -23,8 +24,9 @@ void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& fl
     const std::ptrdiff_t s = grid.stride(d);
     const double dt_h = dt / grid.h[d];
     for_each(grid.cells, [=](std::ptrdiff_t c) {
-      const double ahead = q[c + s] * (q[c + s] > 0.0 ? v[c] : v[c + s]);
-      const double behind = q[c] * (q[c] > 0.0 ? v[c - s] : v[c]);
+      const double own = v[c], upper = v[c + s], lower = v[c - s], out_flux = q[c + s], in_flux = q[c];
+      const double ahead = out_flux * (out_flux > 0.0 ? own : upper);
+      const double behind = in_flux * (in_flux > 0.0 ? lower : own);
       out[c] -= dt_h * (ahead - behind);
     });
   }
@@ -38,7 +40,7 @@ void outflow_rate(const Grid& grid, const FaceField& flux, Field& rate) {
     const std::ptrdiff_t s = grid.stride(d);
     const double inv_h = 1.0 / grid.h[d];
     for_each(grid.cells,
-             [=](std::ptrdiff_t c) { out[c] += inv_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0)); });
+             [=](std::ptrdiff_t c) { out[c] += inv_h * (std::max(q[c + s], 0.0) - std::min(q[c], 0.0)); });
   }
 }
 

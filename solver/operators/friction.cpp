@@ -28,6 +28,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       divergence_(grid),
       marked_(grid),
       communicator_(communicator),
+      direct_(grid),
       component_mass_(grid),
       weight_(grid),
       residual_(grid),
@@ -93,8 +94,10 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
                            r = component_pointers(residual_, grid_.dim);
   fill_wall_ghosts(u, true);
   apply(mass, u, r);
-  set_preconditioner(mass);
+  set_own_diffusion(mass);
   set_weights(mass);
+  const bool thin = direct_.factorise(box_, form(mass));
+  if (!thin) set_multigrids();
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
   for (int d = 0; d < grid_.dim; ++d) {
@@ -113,17 +116,18 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   }
   // Where a bed locks within a step the guess leaves a residual far above every force in the problem
   // (viscosity times the old velocity): a share of that alone would leave momentum unsolved.
-  const double least_share = relative_tolerance * std::fmin(first, load);
+  const double least_share = relative_tolerance * std::min(first, load);
   const linear::Report report = solver_->solve(
       [&](const linear::Components& p, const linear::Components& q) {
         fill_wall_ghosts(p, false);
         apply(mass, p, q);
       },
       [&](const linear::ConstComponents& res, const linear::Components& z) {
+        if (thin) return direct_.apply(res, z);
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },
       {r[0], r[1], r[2]}, component_pointers(correction_, grid_.dim),
-      {std::fmax(velocity_tolerance * velocity_, least_share), 0.0, most_iterations},
+      {std::max(velocity_tolerance * velocity_, least_share), 0.0, most_iterations},
       {weight_[0].data(), weight_[1].data(), grid_.dim == 3 ? weight_[2].data() : nullptr});
   for (int d = 0; d < grid_.dim; ++d) {
     const double *x = correction_[d].data(), *m = marked_[d].data();

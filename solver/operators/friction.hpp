@@ -5,7 +5,8 @@
 //
 //   mass u_s - div(2 mu S + lambda (div u_s) I) = rhs,  mu = f_s mu_s^K + mu_friction,  lambda = f_s mu_s^K
 // (f_s (zeta - 2/3 mu) of (16) equals f_s mu_s^K because zeta/mu = 5/3). The full tensor is kept implicit:
-// with a contrast of 1e10 its cross terms cannot be lagged. CG with one multigrid cycle a component; the wall
+// with a contrast of 1e10 its cross terms cannot be lagged. CG with one multigrid cycle a component, or with
+// the factorised matrix where the bed is thin (friction_direct.hpp); the wall
 // stress of no-slip and Coulomb walls is part of the operator. Known problem: with the full S of (17)
 // friction carries normal load: the base of a bed at rest shows P_s = 270 Pa for a weight of 409 Pa; sigma_yy
 // = P_s - tau_yy is what balances the weight.
@@ -18,6 +19,7 @@
 #include "solver/linear/multigrid.hpp"
 #include "solver/operators/aperture.hpp"
 #include "solver/operators/box_of_grains.hpp"
+#include "solver/operators/friction_direct.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/operators/strain.hpp"
@@ -55,7 +57,9 @@ class Friction {
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia);
-  void set_preconditioner(const FaceField& mass);
+  void set_own_diffusion(const FaceField& mass);
+  void set_multigrids();
+  FrictionForm form(const FaceField& mass) const;
   void set_weights(const FaceField& mass);
   // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see
   // free_faces_of_part_cells(); nullptr for all of it.
@@ -85,6 +89,7 @@ class Friction {
   std::optional<linear::ConjugateGradient> solver_;
   std::vector<linear::Multigrid> multigrid_;  // one a component
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
+  FrictionDirect direct_;
   FaceField component_mass_, weight_, residual_, correction_;
 };
 

@@ -48,14 +48,14 @@ void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceFiel
     for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
       const double before = squared[c];
       squared[c] = squared_shear_of_cell(g, c, s, t);
-      all[c] = std::fmax(all[c] + squared[c] - before, 0.0);
+      all[c] = std::max(all[c] + squared[c] - before, 0.0);
     });
   }
   const double* v = u_strain[vertical].data();
   const double inv_h = 1.0 / grid_.h[vertical];
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     const double fall = (v[c + up] - v[c]) * inv_h;
-    if (side[c] != 0.0) normal[c] = std::fmax(normal[c] - fall * fall, 0.0);
+    if (side[c] != 0.0) normal[c] = std::max(normal[c] - fall * fall, 0.0);
   });
 }
 
@@ -72,7 +72,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     const double share = 1.0 / sum.count, pressure = share * sum.pressure;
     const double law =
         inertial ? closures::inertial_friction(pressure, norm, eta, mu_2, i_0, rho_s, d_s) : eta;
-    double coefficient = std::fmax(std::fmax(law, share * sum.least) + share * sum.dilatancy, 0.0);
+    double coefficient = std::max(std::max(law, share * sum.least) + share * sum.dilatancy, 0.0);
     if (sum.drag > 0.0)
       coefficient += closures::agitation_friction(share * sum.drag, pressure, norm, rho_s, d_s);
     return closures::friction_viscosity(pressure, coefficient, n, norm);
@@ -186,7 +186,7 @@ void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia) {
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
       double* edge = mu_edge_[plane_index(d, e)].data();
       for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
-        const double least = std::fmin(std::fmin(fd[c], fd[c - t]), std::fmin(fe[c], fe[c - s]));
+        const double least = std::min(std::min(fd[c], fd[c - t]), std::min(fe[c], fe[c - s]));
         edge[c] = least >= least_solid_fraction ? edge[c] : 0.0;
       });
     }

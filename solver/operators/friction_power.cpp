@@ -1,4 +1,5 @@
 // What the solid stress of the friction step does per time: the energy budget's part of friction.hpp.
+#include <algorithm>
 #include <cmath>
 
 #include "solver/grid/for_each_row.hpp"
@@ -65,7 +66,7 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   power.on_grains *= grid_.cell_volume;
   power.kinetic = grid_.cell_volume *
                   sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return spent[c]; });
-  power.friction = std::fmax(total * grid_.cell_volume - power.kinetic, 0.0);
+  power.friction = std::max(total * grid_.cell_volume - power.kinetic, 0.0);
   power.walls = wall_power(grid_, boundary_,
                            [&](int d, int e, std::ptrdiff_t c) { return shear_[plane_index(d, e)][c]; });
   return power;

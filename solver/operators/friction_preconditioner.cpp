@@ -14,15 +14,24 @@ constexpr double share_of_the_hold = 1e-6;
 
 }  // namespace
 
+FrictionForm Friction::form(const FaceField& mass) const {
+  const double* tilt = tilting(0, vertical);
+  return {mu_.data(),
+          lambda_.data(),
+          mu_edge_[plane_index(0, vertical)].data(),
+          tilt,
+          {marked_[0].data(), marked_[1].data()},
+          {mass[0].data(), mass[1].data()}};
+}
+
 // Own diffusion of every component; couplings to faces that are known go to the diagonal.
-void Friction::set_preconditioner(const FaceField& mass) {
+void Friction::set_own_diffusion(const FaceField& mass) {
   for (int d = 0; d < grid_.dim; ++d) {
     const Layout& layout = faces_[d];
     const double *m = marked_[d].data(), *own = mass[d].data(), *mu = normal_viscosity(d),
                  *lambda = lambda_.data();
     double* diagonal = component_mass_[d].data();
     for_each(layout, [=](std::ptrdiff_t c) { diagonal[c] = m[c] * own[c]; });
-    linear::Faces faces{};
     for (int e = 0; e < grid_.dim; ++e) {
       const std::ptrdiff_t s = grid_.stride(e);
       const double inv_h2 = 1.0 / (grid_.h[e] * grid_.h[e]);
@@ -56,9 +65,15 @@ void Friction::set_preconditioner(const FaceField& mass) {
           }
         }
       }
-      faces.lower[e] = a;
     }
-    multigrid_[d].set(faces, diagonal);
+  }
+}
+
+void Friction::set_multigrids() {
+  for (int d = 0; d < grid_.dim; ++d) {
+    linear::Faces faces{};
+    for (int e = 0; e < grid_.dim; ++e) faces.lower[e] = coefficient_[d][e].data();
+    multigrid_[d].set(faces, component_mass_[d].data());
   }
 }
 

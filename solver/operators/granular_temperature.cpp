@@ -60,7 +60,7 @@ void GranularTemperature::convect(double dt, const Field& theta, const Field& f_
   for_each(grid_.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
   subtract_upwind_divergence(grid_, dt, flux_s, theta, theta_new);
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    out[c] = f_new[c] >= least_solid_fraction ? std::fmax(out[c] / f_new[c], 0.0) : 0.0;
+    out[c] = f_new[c] >= least_solid_fraction ? std::max(out[c] / f_new[c], 0.0) : 0.0;
   });
 }
 
@@ -93,7 +93,7 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
       max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return rhs[c]; });
   if (scale == 0.0) return;
   solver_.solve(faces, mass, rhs, t, {1e-8 * scale, 1e-6, 50});
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { t[c] = std::fmax(t[c], 0.0); });
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { t[c] = std::max(t[c], 0.0); });
 }
 
 namespace {
@@ -160,10 +160,10 @@ void GranularTemperature::predict(double dt, const Field& theta, const Field& f_
     const double production =
         at.viscosity(c) * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
     const double inertia = steady ? 0.0 : 3.0 * f[c] * rho_s / dt;
-    const double decay = 3.0 * b.drag + std::fmax(b.expansion + b.work, 0.0);
+    const double decay = 3.0 * b.drag + std::max(b.expansion + b.work, 0.0);
     const double start = steady ? 0.0 : std::sqrt(t[c]);
     const double w = closures::positive_root(b.collisions, inertia + decay, production + inertia * start);
-    out[c] = steady ? std::fmin(w * w, bound) : std::fmax(t[c], std::fmin(seed * w * w, bound));
+    out[c] = steady ? std::min(w * w, bound) : std::max(t[c], std::min(seed * w * w, bound));
   });
 }
 
@@ -190,16 +190,16 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
     }
     const LocalBalance b = at(c);
     // Implicit where it is a loss; a gain taken so has a pole near div u_s dt = -3.
-    const double loss = std::fmax(b.expansion, 0.0), gain = std::fmax(-b.expansion, 0.0) * t[c];
+    const double loss = std::max(b.expansion, 0.0), gain = std::max(-b.expansion, 0.0) * t[c];
     double inertia = 0.0, held = produced[c], decay = 3.0 * b.drag + loss;
     if (steady) {
-      decay += std::fmax(b.work, 0.0);
+      decay += std::max(b.work, 0.0);
     } else {
       inertia = 1.5 * f[c] * rho_s / dt;
       held += inertia * t[c] + gain - b.work * old[c];
     }
-    const double w = closures::cubic_root(b.collisions, inertia + decay, std::fmax(held, 0.0));
-    t[c] = std::fmin(w * w, bound);
+    const double w = closures::cubic_root(b.collisions, inertia + decay, std::max(held, 0.0));
+    t[c] = std::min(w * w, bound);
     excess[c] = 1.5 * f[c] * rho_s * (w * w - t[c]);
     collided[c] = dt * ((b.collisions * w + loss) * w * w - (steady ? 0.0 : gain));
     dragged[c] = dt * 3.0 * b.drag * w * w;

@@ -90,12 +90,12 @@ void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double dt_h = dt / grid_.h[d];
     for_each(grid_.cells, [=](std::ptrdiff_t c) {
-      gain[c] += dt_h * (std::fmax(q[c], 0.0) - std::fmin(q[c + s], 0.0));
-      loss[c] += dt_h * (std::fmax(q[c + s], 0.0) - std::fmin(q[c], 0.0));
+      gain[c] += dt_h * (std::max(q[c], 0.0) - std::min(q[c + s], 0.0));
+      loss[c] += dt_h * (std::max(q[c + s], 0.0) - std::min(q[c], 0.0));
     });
   }
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    const double room = std::fmax(fc[c] - fl[c], 0.0), held = std::fmax(fl[c], 0.0);
+    const double room = std::max(fc[c] - fl[c], 0.0), held = std::max(fl[c], 0.0);
     gain[c] = gain[c] > room ? room / gain[c] : 1.0;
     loss[c] = loss[c] > held ? held / loss[c] : 1.0;
   });
@@ -105,7 +105,7 @@ void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
     double* q = correction_[d].data();
     const std::ptrdiff_t s = grid_.stride(d);
     for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
-      q[c] *= q[c] > 0.0 ? std::fmin(loss[c - s], gain[c]) : std::fmin(loss[c], gain[c - s]);
+      q[c] *= q[c] > 0.0 ? std::min(loss[c - s], gain[c]) : std::min(loss[c], gain[c - s]);
     });
     boundary_.exchange(correction_[d]);
   }

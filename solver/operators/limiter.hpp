@@ -1,6 +1,7 @@
 // Slope limiters of the bounded second-order fluxes.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace granvof {
@@ -17,7 +18,7 @@ inline double van_leer(double a, double b) {
 inline double superbee(double a, double b) {
   if (a * b <= 0.0) return 0.0;
   const double x = std::fabs(a), y = std::fabs(b);
-  return std::copysign(std::fmax(std::fmin(2.0 * x, y), std::fmin(x, 2.0 * y)), a);
+  return std::copysign(std::max(std::min(2.0 * x, y), std::min(x, 2.0 * y)), a);
 }
 
 }  // namespace granvof

@@ -17,7 +17,7 @@ void shear_packing(const Grid& grid, const Contact& contact, double dt, const Fi
       p[c] = loosest;
       return;
     }
-    const double deviator = std::fmax(squared[c] - divergence[c] * divergence[c] / 3.0, 0.0);
+    const double deviator = std::max(squared[c] - divergence[c] * divergence[c] / 3.0, 0.0);
     const double sheared = closures::sheared_packing(p[c], dt * std::sqrt(2.0 * deviator), contact);
     p[c] = std::clamp(sheared, loosest, contact.solid_fraction_max);
   });

@@ -56,7 +56,7 @@ inline CutVolume lower_cut(const std::array<double, 3>& m, double d) {
     const double two = 2.0 * m[1] * m[2];
     return {d * (d - m[0]) / two + m[0] * m[0] / (3.0 * two), (2.0 * d - m[0]) / two};
   }
-  if (d >= std::fmin(m12, m[2]) && m12 <= m[2]) return {(2.0 * d - m12) / (2.0 * m[2]), 1.0 / m[2]};
+  if (d >= std::min(m12, m[2]) && m12 <= m[2]) return {(2.0 * d - m12) / (2.0 * m[2]), 1.0 / m[2]};
   double volume = d * d * (3.0 * m12 - d), slope = 3.0 * d * (2.0 * m12 - d);
   int corners = 2;
   if (d >= m[2]) {
@@ -83,7 +83,7 @@ inline double volume_below(const std::array<double, 3>& normal, double distance)
 // The distance at which the plane leaves `volume` of the cell below it; normal >= 0, sum 1; 0 <= volume <= 1.
 inline double distance_of_volume(const std::array<double, 3>& normal, double volume) {
   const OrderedNormal o = ordered_normal(normal);
-  const double small = std::fmin(volume, 1.0 - volume);
+  const double small = std::min(volume, 1.0 - volume);
   double d = small > 0.0 ? 0.5 : 0.0;
   for (int i = 0; i < 60 && small > 0.0; ++i) {
     const CutVolume cut = lower_cut(o.m, d);

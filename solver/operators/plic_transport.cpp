@@ -1,5 +1,7 @@
 #include "solver/operators/plic_transport.hpp"
 
+#include <algorithm>
+
 #include "solver/operators/solid_transport.hpp"
 
 namespace granvof {
@@ -83,8 +85,8 @@ double PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& al
     const std::ptrdiff_t donor = forward ? c - s : c;
     const double of_donor = dt_h / fc[donor];  // a flux as the part of the donor that it takes
     const int end = forward ? 1 : 0;
-    const std::array<double, 2> width{std::fmax(-q[donor], 0.0) * of_donor,
-                                      std::fmax(q[donor + s], 0.0) * of_donor};
+    const std::array<double, 2> width{std::max(-q[donor], 0.0) * of_donor,
+                                      std::max(q[donor + s], 0.0) * of_donor};
     Cut cut;
     if (a[donor] <= pure || a[donor] >= 1.0 - pure || width[end] <= pure || !cut_of(grid_, a, donor, cut)) {
       liquid[c] = a[donor] * q[c];

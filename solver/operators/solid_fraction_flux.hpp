@@ -2,6 +2,7 @@
 // the steepest bounded one (superbee), which keeps the surface of a bed sharper.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/grid/field.hpp"
@@ -36,8 +37,8 @@ class SolidFractionFlux {
     double* out = face.data();
     const std::ptrdiff_t s = grid.stride(d);
     for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-      const double w = v[c];
-      out[c] = w > 0.0 ? f[c - s] : (w < 0.0 ? f[c] : 0.5 * (f[c] + f[c - s]));
+      const double w = v[c], lower = f[c - s], upper = f[c];
+      out[c] = w > 0.0 ? lower : (w < 0.0 ? upper : 0.5 * (upper + lower));
     });
   }
 
@@ -52,7 +53,7 @@ class SolidFractionFlux {
       const double w = v[c];
       const double middle = f[c] - f[c - s];
       // the slope, shortened by the Courant number: second order in time too, and bounded up to 1
-      const double reach = 0.5 * std::fmax(1.0 - std::fabs(w) * courant_per_speed, 0.0);
+      const double reach = 0.5 * std::max(1.0 - std::fabs(w) * courant_per_speed, 0.0);
       const double from_lower = f[c - s] + reach * slope(f[c - s] - f[c - 2 * s], middle);
       const double from_upper = f[c] - reach * slope(f[c + s] - f[c], middle);
       out[c] = w > 0.0 ? from_lower : (w < 0.0 ? from_upper : 0.5 * (f[c] + f[c - s]));

@@ -15,7 +15,7 @@ void keep_solid_positive(const Grid& grid, const Boundary& boundary, double dt, 
   double* r = share.data();
   const double least = -max_over(grid.cells, grid.all_cells(), -1.0, [=](std::ptrdiff_t c) {
     const double out = dt * r[c];
-    const double held = std::fmax(f[c], 0.0);  // an emptied cell may hold minus one rounding error
+    const double held = std::max(f[c], 0.0);  // an emptied cell may hold minus one rounding error
     r[c] = out > held ? held / out : 1.0;
     return -r[c];
   });

@@ -1,5 +1,6 @@
 #include "solver/run/state.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/closures/shear_dilatancy.hpp"
@@ -47,7 +48,7 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
       const std::ptrdiff_t c = l.index(i, j, k);
       const double half = 0.5 * (weight(j) - per_grain * s.f_s[c]);
       if (s.f_s[c] > scene.contact.solid_fraction_min) {
-        s.p_s[c] = std::fmax(p + half, 0.0);
+        s.p_s[c] = std::max(p + half, 0.0);
         s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
       }
       p += 2.0 * half;

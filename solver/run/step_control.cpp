@@ -44,7 +44,7 @@ double StepControl::next(const State& s) const {
     const std::ptrdiff_t stride = grid_.stride(d);
     const double speed = max_over(grid_.cells, grid_.fluid_faces(d), 0.0, [=](std::ptrdiff_t c) {
       const double solid = f[c] + f[c - stride] > 2.0 * solid_that_counts ? std::fabs(us[c]) : 0.0;
-      return std::fmax(std::fabs(uc[c]), solid);
+      return std::max(std::fabs(uc[c]), solid);
     });
     rate = std::max(rate, speed / grid_.h[d]);
   }

@@ -26,12 +26,12 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
+      communicator_(communicator),
       aperture_(grid, scene),
       inertia_(grid),
       drag_(grid, scene),
       rheology_(grid),
       viscosity_(grid, scene),
-      implicit_viscosity_(grid, scene, boundary, communicator),
       friction_(grid, scene, boundary, communicator),
       pressure_(grid, scene, boundary, communicator),
       interface_(grid, scene, boundary),
@@ -69,10 +69,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("friction", [&] { apply_friction(now, dt, next, report); });
   if (!bears_explicit_viscosity(dt)) {
     bool converged = true;
-    cost_.time("fluid viscosity", [&] {
-      converged = implicit_viscosity_.apply(dt, viscosity_.of_cells(), inertia_, drag_.beta(), aperture_,
-                                            now.u_c, predicted_c_, next.u_c, next.u_s);
-    });
+    cost_.time("fluid viscosity", [&] { converged = apply_viscosity(now, dt, next); });
     if (!converged) {
       report.refused_because = "the fluid viscosity did not converge";
       return report;
@@ -81,7 +78,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("pressure", [&] {
     report.pressure = pressure_.solve(
         dt, now.f_s, {now.theta, rheology_.restitution, rheology_.part_cells.resting, now.packing}, inertia_,
-        drag_.beta(), aperture_, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
+        drag_.beta(), aperture_, now.u_s, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
   report.refused_because = reason_to_refuse(now, dt, report);
   if (!report.refused_because.empty()) return report;
@@ -226,6 +223,13 @@ bool TimeStep::bears_explicit_viscosity(double dt) const {
   for (int d = 0; d < grid_.dim; ++d)
     if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
   return kinematic_viscosity_ * dt * inverse_squares <= explicit_viscous_number;
+}
+
+// Few scenes need it, and it takes an eighth of a run's memory.
+bool TimeStep::apply_viscosity(const State& now, double dt, State& next) {
+  if (!implicit_viscosity_) implicit_viscosity_.emplace(grid_, scene_, boundary_, communicator_);
+  return implicit_viscosity_->apply(dt, viscosity_.of_cells(), inertia_, drag_.beta(), aperture_, now.u_c,
+                                    predicted_c_, next.u_c, next.u_s);
 }
 
 // Packing of the bed after the shear that friction worked on: elastic waves of the pressure step, which it

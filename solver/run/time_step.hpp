@@ -1,6 +1,7 @@
 // One time step of the gas-liquid-solid model: the algorithm, one named operator a line.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "solver/operators/aperture.hpp"
@@ -48,6 +49,7 @@ class TimeStep {
   void add_to_predictor(const BodyAcceleration& extra, double dt);
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
   bool bears_explicit_viscosity(double dt) const;
+  bool apply_viscosity(const State& now, double dt, State& next);
   double dilate(double dt, State& next);
   void account_energy(const State& now, double dt, const Friction::Power& stress,
                       const GranularLosses& granular, double dilated, double liquid_left, State& next);
@@ -56,12 +58,13 @@ class TimeStep {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
+  const Communicator& communicator_;
   Aperture aperture_;
   FaceInertia inertia_;
   InterphaseDrag drag_;
   Rheology rheology_;
   FluidViscosity viscosity_;
-  ImplicitViscosity implicit_viscosity_;
+  std::optional<ImplicitViscosity> implicit_viscosity_;  // of the first step that needs it on
   Friction friction_;
   CoupledPressure pressure_;
   InterfaceTransport interface_;

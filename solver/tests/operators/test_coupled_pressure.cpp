@@ -46,7 +46,7 @@ struct Step {
     CoupledPressure pressure(s.grid, s.scene, s.boundary, s.communicator);
     const Field touching(s.grid, s.scene.contact.solid_fraction_min);
     report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid), touching}, inertia, drag.beta(),
-                            aperture, u_s, u_c, p_c, p_s, flux_s, flux_c);
+                            aperture, u_s, u_s, u_c, p_c, p_s, flux_s, flux_c);
   }
   // Both velocities after a time dt of free fall.
   void fall(double dt) {
