@@ -3,8 +3,8 @@ second is empty where it is."""
 
 import shutil
 
-from faults_tried import damage, directories, evidence, interrupted, mounts, orphans, scarce
-from faults_tried.bench import SAMPLE, refused
+from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orphans, scarce, threads
+from faults_tried.bench import SAMPLE, NotTried, refused
 
 
 def bad_values(bench, entry):
@@ -37,17 +37,30 @@ def outputs(bench, entry):
            "" if ended is not None and ended.returncode > 0 else f"exit code {ended and ended.returncode}")
 
 
+def made_locales(bench, names):
+    """A folder with these locales: a name that is not installed would stand for C and try nothing."""
+    folder = bench.place()
+    for name in names:
+        language, charset = name.split(".")
+        made = shutil.which("localedef") and bench.call(["localedef", "-i", language, "-f", charset, folder / name])
+        if not made or not (folder / name).is_dir():
+            raise NotTried(f"the locale {name} cannot be made (package locales)")
+    return folder
+
+
 def locales(bench, entry):
     """The same output in every locale."""
     plain = bench.call(bench.filled(entry["command"]), environment={"LC_ALL": "C"})
+    folder = made_locales(bench, [name for name in entry["locales"] if "." in name])
     for locale in entry["locales"]:
-        ended = bench.call(bench.filled(entry["command"]), environment={"LC_ALL": locale, "LANG": locale})
+        environment = {"LC_ALL": locale, "LANG": locale, "LOCPATH": str(folder)}
+        ended = bench.call(bench.filled(entry["command"]), environment=environment)
         same = ended is not None and (ended.returncode, ended.stdout) == (plain.returncode, plain.stdout)
         yield f"{' '.join(entry['command'][:2])} in {locale}", "" if same and plain.returncode == 0 else "another output"
 
 
 KINDS = {kind.__name__: kind for kind in (
-    bad_values, bad_files, evidence.damaged_runs, evidence.damaged_records, interrupted.kills, interrupted.kills_at_calls, interrupted.failing_calls,
-    scarce.full_disks, scarce.limits, scarce.closed_streams, directories.two_in_one, directories.foreign,
-    directories.damaged_resumes, directories.changed_keys, mounts.full_tmpfs, mounts.read_only, orphans.orphans,
-    outputs, locales, scarce.long_runs)}
+    bad_values, bad_files, evidence.damaged_runs, evidence.damaged_records, interrupted.kills, interrupted.kills_at_calls,
+    interrupted.failing_calls, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
+    directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, hostile.hostile,
+    hostile.odd_cases, orphans.orphans, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <unistd.h>
 
 #include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
@@ -66,6 +67,8 @@ std::string difference(const ExistingRun& existing, const Scene& scene, const Ru
 Descriptor lock_directory(const fs::path& directory) {
   Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!lock.valid()) throw OutputError("write to", directory, std::generic_category().message(errno));
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw OutputError("write to", directory, std::generic_category().message(errno));
   if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
     throw OutputError(
         "write to", directory,

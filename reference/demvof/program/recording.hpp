@@ -2,7 +2,6 @@
 // step of the fluid is cut for them.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "reference/demvof/coupling/coupled_run.hpp"
@@ -55,8 +54,7 @@ class Recording {
             granvof::RunProgress& progress, double hold);
 
   double now() const { return run_.time() - hold_; }  // [s] since the release
-  // Steps of equal length to the release: it is an event of the flow. Throws granvof::StopRequested between
-  // steps where a signal asked for the end.
+  // Steps of equal length to the release, which is an event of the flow; `after_step` after each.
   template <class AfterStep>
   void advance_to_release(double half_a_bead_step, AfterStep&& after_step) {
     while (now() < -half_a_bead_step) {
