@@ -279,14 +279,15 @@ def write_json(path, facts):
 
 
 def state_files(folder):
-    """Adds what is said of the files to a record that was made before records said it; True if it was missing. The files are
+    """Adds to a record of an earlier version what is said of its files, and the seal; True if one was missing. The files are
     taken as they are: that they are those that were written rests on the history of the repository alone, and is said so."""
     path = folder / "record.json"
     facts = facts_of(path)
-    if "files" in facts:
+    if "files" in facts and is_sealed(path.read_text(encoding="utf-8")):
         return False
-    facts["files"] = stated_files(folder)
-    facts["files_stated"] = "afterwards, from the files as they were in the repository"
+    if "files" not in facts:
+        facts["files"] = stated_files(folder)
+        facts["files_stated"] = "afterwards, from the files as they were in the repository"
     write_json(path, facts)
     return True
 
