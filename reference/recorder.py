@@ -23,6 +23,7 @@ PACKAGES = ("libliggghts3", "libopenfoam")
 INSTANTS_KEPT = 4  # of fields.h5 that go into a record: the first, the last and two between
 FIELDS_KEPT = ("f_s", "alpha")
 NAME = r"[A-Za-z0-9][A-Za-z0-9_.-]{0,199}"  # of a scene or variant: it becomes part of a path
+SEAL = ',\n  "sha256": "@"\n}\n'
 DIGITS_KEPT = 9  # significant, of series.csv
 
 
@@ -82,14 +83,28 @@ def one_line(error):
 
 
 def facts_of(path):
-    """Content of a run.json or record.json. RecordError where it is damaged."""
+    """Content of a run.json or record.json without its seal. RecordError where it is damaged."""
     try:
-        facts = json.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        facts = json.loads(text)
     except (OSError, ValueError) as error:
         raise RecordError(f"{path} cannot be read: {one_line(error)}") from error
     if not isinstance(facts, dict):
         raise RecordError(f"{path} is no JSON object")
+    if facts.pop("sha256", None) and not is_sealed(text):
+        raise RecordError(f"{path} is not what was written: its own SHA-256 is another")
     return facts
+
+
+def sealed(facts):
+    """The text of a JSON file that carries its own digest as its last member (solver/output/seal.hpp)."""
+    text = json.dumps({key: value for key, value in facts.items() if key != "sha256"}, indent=2).removesuffix("\n}")
+    return text + SEAL.replace("@", hashlib.sha256(text.encode()).hexdigest())
+
+
+def is_sealed(text):
+    content, begin, _ = text.rpartition(SEAL.split("@")[0])
+    return bool(begin) and text == content + SEAL.replace("@", hashlib.sha256(content.encode()).hexdigest())
 
 
 def read_plan(path=ROOT / "reference/plan.toml"):
@@ -259,19 +274,20 @@ def require_files(folder, facts):
 
 def write_json(path, facts):
     draft = path.with_name(path.name + ".part")
-    draft.write_text(json.dumps(facts, indent=2) + "\n", encoding="utf-8")
+    draft.write_text(sealed(facts), encoding="utf-8")
     draft.replace(path)
 
 
 def state_files(folder):
-    """Adds what is said of the files to a record that was made before records said it; True if it was missing. The files are
+    """Adds to a record of an earlier version what is said of its files, and the seal; True if one was missing. The files are
     taken as they are: that they are those that were written rests on the history of the repository alone, and is said so."""
     path = folder / "record.json"
     facts = facts_of(path)
-    if "files" in facts:
+    if "files" in facts and is_sealed(path.read_text(encoding="utf-8")):
         return False
-    facts["files"] = stated_files(folder)
-    facts["files_stated"] = "afterwards, from the files as they were in the repository"
+    if "files" not in facts:
+        facts["files"] = stated_files(folder)
+        facts["files_stated"] = "afterwards, from the files as they were in the repository"
     write_json(path, facts)
     return True
 
@@ -318,7 +334,7 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     if not run.chute:
         slim_fields(run_directory / "fields.h5", draft / "fields.h5")
     facts["files"] = stated_files(draft)
-    (draft / "record.json").write_text(json.dumps(facts, indent=2) + "\n")
+    write_json(draft / "record.json", facts)
     shutil.rmtree(folder, ignore_errors=True)
     draft.rename(folder)
     return folder

@@ -18,6 +18,10 @@ class TableError(Exception):
     """What is wrong with the table, in one line."""
 
 
+class NotTried(Exception):
+    """Why a kind cannot be tried on this machine, in one line."""
+
+
 def read_table(path, kinds):
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -4,6 +4,8 @@ import os
 import re
 import shutil
 
+from faults_tried.bench import TableError
+
 
 def empty(path, chance):
     path.write_bytes(b"")
@@ -77,10 +79,27 @@ def line_twice(path, chance):
     path.write_bytes(b"".join(lines[:at + 1] + lines[at:]))
 
 
+def digit(path, chance):
+    """Another digit in the place of one: a number that still reads as one."""
+    content = bytearray(path.read_bytes())
+    at = chance.choice([index for index, byte in enumerate(content) if byte in b"0123456789"])
+    content[at] = chance.choice([byte for byte in b"123456789" if byte != content[at]])
+    path.write_bytes(content)
+
+
 BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text,
-                                         fifo, endless, flipped, line_out, line_twice)}
+                                         fifo, endless, flipped, line_out, line_twice, digit)}
+BY_CHANCE = ("flipped", "line_out", "line_twice", "digit")  # another one every time
 
 
 def copy_of(source, target):
     shutil.copytree(source, target, symlinks=True)
     return target
+
+
+def of_entry(entry):
+    """Name and way of every damage that an entry of the table lists."""
+    for name in entry["damages"]:
+        if name not in BY_NAME:
+            raise TableError(f"damages: '{name}' given; known: {', '.join(BY_NAME)}")
+        yield name, BY_NAME[name]

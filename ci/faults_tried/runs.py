@@ -27,9 +27,9 @@ class SmallRun:
     def go(self, out, *words, sets=(), **options):
         return self.bench.call(self.command(out, *words, sets=sets), **{"patience": 600.0, **options})
 
-    def start(self, out, *words, **options):
-        return subprocess.Popen(self.command(out, *words), cwd=self.bench.root, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **options)
+    def start(self, out, *words, command=None, stderr=subprocess.DEVNULL, **options):
+        return subprocess.Popen(command or self.command(out, *words), cwd=self.bench.root, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.DEVNULL, stderr=stderr, **options)
 
     def go_on(self, out):
         """Resumed where there is a run; begun anew where there is none."""

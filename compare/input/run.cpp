@@ -10,6 +10,7 @@
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/fields_file.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/seal.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -112,10 +113,14 @@ std::optional<double> RunFacts::number(std::string_view name) const {
 }
 
 RunFacts read_facts(const std::filesystem::path& json_file) {
-  const auto json = nlohmann::json::parse(read_file(json_file), nullptr, false);
+  const std::string text = read_file(json_file);
+  const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) throw OutputError("read", json_file, "it is not a JSON object");
+  require_seal(text, json.contains("sha256"), json_file);
   try {
-    return facts_of(json);
+    RunFacts facts = facts_of(json);
+    facts.sealed = seal_of(text) == Seal::whole;
+    return facts;
   } catch (const nlohmann::json::exception& error) {
     throw OutputError("read", json_file, error.what());
   }
@@ -170,6 +175,9 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
   try {
     loaded.state = RunState::refused;
     loaded.facts = read_facts(directory / "run.json");
+    if (!loaded.facts->sealed)
+      throw OutputError("use", directory / "run.json",
+                        "it has no SHA-256 of itself: it was made by an earlier version, or changed");
     if (loaded.facts->exit != "finished") {
       loaded.state = RunState::failed;
       loaded.reason = fmt::format("the run did not finish: {}{}", loaded.facts->exit,

@@ -24,6 +24,7 @@ struct RunFacts {
   std::map<std::string, double> numbers;  // core_seconds, cells, steps, ... and the program's monitors
   std::optional<Grid3> grid;
   std::optional<StatedFiles> files;  // nothing: made by an earlier version
+  bool sealed = false;               // it carries its own digest, and that is right (solver/output/seal.hpp)
 
   std::optional<double> number(std::string_view name) const;
 };
@@ -71,7 +72,8 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
 // Reads series.csv and checks it and fields.h5 against what `facts` say of them. Throws OutputError.
 Series read_evidence(const std::filesystem::path& directory, const RunFacts& facts, const Asked& asked);
 
-// Reads run.json (or a record's record.json). Throws OutputError, also where a value is of the wrong type.
+// Reads run.json (or a record's record.json). Throws OutputError, also where a value is of the wrong type or
+// the file's own digest is another.
 RunFacts read_facts(const std::filesystem::path& json_file);
 
 }  // namespace granvof::compare

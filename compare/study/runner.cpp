@@ -89,6 +89,7 @@ CachedRunner::CachedRunner(RunnerOptions options) : options_(std::move(options))
   if (!fs::exists(options_.program))
     throw std::runtime_error(fmt::format("{} is missing; `make build` builds it", options_.program.string()));
   fs::create_directories(options_.cache);
+  lock_.emplace(options_.cache);
   const fs::path log = options_.cache / "version.txt";
   if (run_program({options_.program.string(), "--version"}, log, 60.0).code != 0)
     throw std::runtime_error(fmt::format("{} --version failed", options_.program.string()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/input/run.hpp"
+#include "compare/study/cache_lock.hpp"
 
 namespace granvof::compare {
 
@@ -57,7 +58,8 @@ struct RunnerOptions {
 // A run that somebody stopped is no result: run() throws.
 // A job is identified by its resolved case and the version of the program (and, of a version with uncommitted
 // changes, by the program file's time); a run that ended, well or not, is not made again, but for one that
-// was ended by a shorter time limit than now. Throws std::runtime_error where the program cannot be started.
+// was ended by a shorter time limit than now. The cache is locked while the runner lives. Throws
+// std::runtime_error where the program cannot be started, or another study works in the cache.
 class CachedRunner : public Runner {
  public:
   explicit CachedRunner(RunnerOptions options);
@@ -72,6 +74,7 @@ class CachedRunner : public Runner {
   Outcome make(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;
 
   RunnerOptions options_;
+  std::optional<CacheLock> lock_;
   std::string version_;   // as `granvof --version` states it
   std::string identity_;  // of the program: its version, and its time where that is not enough
 };

@@ -52,7 +52,7 @@ class Evaluate : public testing::Test {
         {"core_seconds", 2.5},
         {"files", test::files_stated(series_text)},
         {"exit", {{"state", exit}, {"reason", exit == "finished" ? "" : "step collapse"}}}};
-    write(paths_.runs / id / "run.json", json.dump());
+    write(paths_.runs / id / "run.json", sealed(json.dump(2)));
     write(paths_.runs / id / "series.csv", series_text);
   }
 
@@ -372,10 +372,31 @@ TEST_F(Evaluate, ARunOfAnEarlierVersionIsAnError) {
   write_run("s1", series(0.1));
   auto json = nlohmann::json::parse(read_file(paths_.runs / "s1" / "run.json"));
   json.erase("files");
-  write(paths_.runs / "s1" / "run.json", json.dump());
+  write(paths_.runs / "s1" / "run.json", sealed(json.dump(2)));
   const Evaluation evaluation = evaluate_row(volume_row);
   EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
   EXPECT_NE(evaluation.runs[0].reason.find("made by an earlier version"), std::string::npos);
+}
+
+// Any byte of it, the digest too: what it reports is what the verdict rests on.
+TEST_F(Evaluate, ARunJsonInWhichADigitWasChangedIsAnError) {
+  write_run("s1", series(0.1));
+  const std::string file = paths_.runs / "s1" / "run.json", whole = read_file(file);
+  EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::agree);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  std::string no_seal = nlohmann::json::parse(whole).dump(2);
+  for (const std::string& text : {changed("1e-15", "2e-15"), changed("2.5", "2.6"),
+                                  changed("\n  \"sha256\": \"", "\n  \"sha256\": \"0"),
+                                  changed("\n  \"sha256\"", "\n  \"sha255\""), whole + " ", no_seal}) {
+    write(file, text);
+    const Evaluation evaluation = evaluate_row(volume_row);
+    EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error) << text;
+    EXPECT_NE(evaluation.runs[0].reason.find("run.json"), std::string::npos) << evaluation.runs[0].reason;
+  }
 }
 
 TEST_F(Evaluate, ValuesOfTheWrongKindInRunJsonAreAnError) {
@@ -384,7 +405,7 @@ TEST_F(Evaluate, ValuesOfTheWrongKindInRunJsonAreAnError) {
     write_run("s1", series(0.1));
     auto json = nlohmann::json::parse(read_file(paths_.runs / "s1" / "run.json"));
     json.update(nlohmann::json::parse(change));
-    write(paths_.runs / "s1" / "run.json", json.dump());
+    write(paths_.runs / "s1" / "run.json", sealed(json.dump(2)));
     EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::error) << change;
   }
 }

@@ -159,6 +159,22 @@ TEST_F(StudyRunner, ACaseThatIsRefusedIsNotStarted) {
   EXPECT_EQ(calls(), 0);
 }
 
+TEST_F(StudyRunner, ASecondStudyInTheSameCacheIsToldWhoHasIt) {
+  {
+    const CachedRunner first = runner("exit 0");
+    try {
+      runner("exit 0");
+      FAIL() << "accepted";
+    } catch (const std::runtime_error& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("is in use: process " + std::to_string(getpid()) + " since "), std::string::npos)
+          << said;
+      EXPECT_NE(said.find("--cache"), std::string::npos) << said;
+    }
+  }
+  EXPECT_NO_THROW(runner("exit 0"));
+}
+
 TEST_F(StudyRunner, AProgramThatIsNotThereIsSaid) {
   const RunnerOptions options{"/nonexistent/granvof", root_ / "cache"};
   EXPECT_THROW(CachedRunner{options}, std::runtime_error);

@@ -1,9 +1,13 @@
 // One small case from preparation to its run directory.
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "reference/demvof/program/record_scene.hpp"
 #include "reference/tests/small_case.hpp"
@@ -20,6 +24,12 @@ struct Recorded {
   granvof::Series series;
 };
 
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
 Recorded recorded(const std::vector<std::string>& overrides) {
   const granvof::test::TemporaryDirectory directory;
   const fs::path& out = directory.path();
@@ -28,9 +38,7 @@ Recorded recorded(const std::vector<std::string>& overrides) {
   options.scratch = out / "scratch";
   options.command = "test";
   const int code = demvof::record_scene(demvof::test::small(overrides), options);
-  std::ostringstream facts;
-  facts << std::ifstream(options.out / "run.json").rdbuf();
-  return {code, facts.str(), granvof::read_series(options.out / "series.csv")};
+  return {code, text_of(options.out / "run.json"), granvof::read_series(options.out / "series.csv")};
 }
 
 }  // namespace
@@ -53,4 +61,59 @@ TEST(RecordScene, ACaseWithLiquidKeepsIt) {
   EXPECT_EQ(wet.code, 0);
   for (const auto& value : wet.series.column("liquid_volume_change")) EXPECT_LT(std::abs(*value), 1e-8);
   EXPECT_GT(*wet.series.column("liquid_volume").back(), 0.0);
+}
+
+// No step is cut for a row or a field: with more of them the rows that both have are equal to the bit.
+TEST(RecordScene, OutputDoesNotSteerTheRun) {
+  // Powers of two: both have their rows at the same times to the bit.
+  const Recorded seldom = recorded({"output.series_interval=0.00390625"});
+  const Recorded often =
+      recorded({"output.series_interval=0.001953125", "output.field_times=[0, 0.004, 0.0071]"});
+  ASSERT_EQ(seldom.code + often.code, 0);
+  ASSERT_EQ(seldom.series.rows.size(), 3U);
+  ASSERT_EQ(often.series.rows.size(), 6U);
+  for (std::size_t r = 0; r < 3; ++r) EXPECT_EQ(seldom.series.rows[r], often.series.rows[2 * r]) << r;
+}
+
+// Whatever it is doing, preparing the bed or moving it: it ends with its state in run.json.
+TEST(RecordScene, ASignalEndsItAndItSaysSo) {
+  const std::vector<std::pair<int, std::string>> signals{{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"},
+                                                         {SIGHUP, "SIGHUP"},   {SIGUSR1, "SIGUSR1"},
+                                                         {SIGXCPU, "SIGXCPU"}, {SIGPIPE, "SIGPIPE"}};
+  bool while_it_moves = true;
+  for (const auto& [number, name] : signals) {
+    const granvof::test::TemporaryDirectory directory;
+    demvof::RecordOptions options;
+    options.out = directory.path() / "run";
+    options.scratch = directory.path() / "scratch";
+    const fs::path sign = options.out / (while_it_moves ? "series.csv" : "run.json");
+    const auto has_begun = [&] {
+      return fs::exists(sign) && (!while_it_moves || text_of(sign).find("\n0.002,") != std::string::npos);
+    };
+    std::thread sender([&, signal = number] {
+      for (int tries = 0; tries < 60000 && !has_begun(); ++tries)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ::kill(::getpid(), signal);
+    });
+    const int code = demvof::record_scene(demvof::test::small({"time.end=10"}), options);
+    sender.join();
+    EXPECT_EQ(code, 1) << name;
+    const std::string facts = text_of(options.out / "run.json");
+    EXPECT_NE(facts.find("\"state\": \"stopped\""), std::string::npos) << facts;
+    EXPECT_NE(facts.find("stopped by a signal (" + name + ")"), std::string::npos) << facts;
+    EXPECT_NE(facts.find("\"resume_from\": null"), std::string::npos) << facts;
+    while_it_moves = !while_it_moves;
+  }
+}
+
+TEST(RecordScene, AFailureBeforeTheFirstStepIsAnEndThatIsWritten) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options;
+  options.out = directory.path() / "run";
+  options.scratch = directory.path() / "scratch";
+  std::ofstream(options.scratch) << "a file where a folder should be made";
+  EXPECT_EQ(demvof::record_scene(demvof::test::small(), options), 1);
+  const std::string facts = text_of(options.out / "run.json");
+  EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
+  EXPECT_NE(facts.find("scratch"), std::string::npos) << facts;
 }

@@ -63,14 +63,27 @@ def test_a_record_states_its_own_files(tmp_path):
         recorder.require_files(folder, facts)
 
 
+def test_a_record_in_which_a_digit_was_changed_is_refused(tmp_path):
+    folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
+    path = folder / "record.json"
+    whole = path.read_text()
+    assert recorder.facts_of(path)["case_hash"] == "abc"
+    for text in (whole.replace('"abc"', '"abd"'), json.dumps(json.loads(whole)), whole.replace('256": "', '256": "0')):
+        path.write_text(text)
+        with pytest.raises(recorder.RecordError, match="not what was written"):
+            recorder.facts_of(path)
+
+
 def test_a_record_of_an_earlier_version_is_completed_once_and_says_so(tmp_path):
     folder = recorder.make_record(RUN, finished_run(tmp_path / "run"), "abc", tmp_path)
     facts = json.loads((folder / "record.json").read_text())
-    bare = {key: value for key, value in facts.items() if key != "files"}
+    bare = {key: value for key, value in facts.items() if key not in ("files", "sha256")}
     (folder / "record.json").write_text(json.dumps(bare))
     assert recorder.state_files(folder) and not recorder.state_files(folder)
     now = json.loads((folder / "record.json").read_text())
     assert now["files"] == facts["files"] and "afterwards" in now["files_stated"]
+    (folder / "record.json").write_text(json.dumps({key: value for key, value in facts.items() if key != "sha256"}, indent=2) + "\n")
+    assert recorder.state_files(folder) and json.loads((folder / "record.json").read_text()) == facts  # the seal alone
 
 
 @pytest.mark.parametrize("record", sorted(recorder.RESULTS.glob("**/record.json")), ids=lambda path: str(path.parent.relative_to(recorder.RESULTS)))
@@ -126,12 +139,12 @@ def test_a_record_of_an_earlier_version_is_slimmed_once_and_keeps_its_provenance
     for name in ("series.csv", "fields.h5"):
         (folder / name).write_bytes((tmp_path / "run" / name).read_bytes())
     facts = json.loads(slim["record.json"]) | {"files": recorder.stated_files(folder)}
-    (folder / "record.json").write_text(json.dumps(facts))
+    recorder.write_json(folder / "record.json", facts)
     assert recorder.slim_record(folder)
     assert (folder / "series.csv").read_bytes() == slim["series.csv"]
     was, now = json.loads(slim["record.json"]), json.loads((folder / "record.json").read_text())
     recorder.require_files(folder, now)
-    del was["files"]["fields.h5"]["sha256"], now["files"]["fields.h5"]["sha256"]  # HDF5 writes the second of its making
+    del was["sha256"], now["sha256"], was["files"]["fields.h5"]["sha256"], now["files"]["fields.h5"]["sha256"]  # HDF5 writes the second of its making
     assert now == was
     with h5py.File(folder / "fields.h5") as file:
         assert len(file) == recorder.INSTANTS_KEPT and sorted(file["t0003"]) == sorted(recorder.FIELDS_KEPT)

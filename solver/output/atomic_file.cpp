@@ -65,7 +65,9 @@ void sync(const Descriptor& file, const std::filesystem::path& path) {
 
 void write_beside(const std::filesystem::path& path, std::string_view content) {
   const auto draft = temporary(path);
-  Descriptor file(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  // What has the draft's name is of a run that was killed, or a link to somebody's file: never written into.
+  ::unlink(draft.c_str());
+  Descriptor file(::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.valid()) throw OutputError("write", path, reason(errno));
   try {
     write_all(file, content, path);
@@ -103,10 +105,16 @@ void overwrite_file(const std::filesystem::path& path, std::string_view content)
   sync(file, path);
 }
 
-std::string read_file(const std::filesystem::path& path) {
+void require_file(const std::filesystem::path& path) {
   std::error_code unknown;
-  // A stream opens a directory and reads nothing from it.
-  if (std::filesystem::is_directory(path, unknown)) throw OutputError("read", path, reason(EISDIR));
+  const std::filesystem::file_status status = std::filesystem::status(path, unknown);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  throw OutputError("read", path,
+                    std::filesystem::is_directory(status) ? reason(EISDIR) : "it is a device or a pipe");
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  require_file(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw OutputError("read", path, reason(errno));

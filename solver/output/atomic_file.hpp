@@ -20,6 +20,10 @@ void rename_into_place(const std::filesystem::path& path);                      
 // leaves neither. Throws OutputError.
 void overwrite_file(const std::filesystem::path& path, std::string_view content);
 
+// Throws OutputError where `path` is there and no file: opening a pipe waits for its other end, a device may
+// have none.
+void require_file(const std::filesystem::path& path);
+
 // Whole content of a file. Throws OutputError.
 std::string read_file(const std::filesystem::path& path);
 

@@ -25,4 +25,8 @@ struct CellFields {
   std::array<std::vector<double>, 3> u_c;  // velocity of the continuous phase [m/s]
 };
 
+// Throws std::invalid_argument naming the array whose size is not that of `fields.cells`.
+// `p_s` may be empty everywhere, component 2 of the velocities where there is one layer of cells.
+void check_sizes(const CellFields& fields);
+
 }  // namespace granvof

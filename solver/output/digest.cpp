@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include "solver/output/atomic_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof {
@@ -49,6 +50,7 @@ std::string Digest::hex() const {
 }
 
 std::string digest_of_file(const std::filesystem::path& path) {
+  require_file(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw OutputError("read", path, std::generic_category().message(errno));

@@ -11,6 +11,7 @@
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/build_info.hpp"
+#include "solver/output/fields_instant.hpp"
 #include "solver/output/hdf5_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_record.hpp"
@@ -24,6 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* file_name = "fields.h5";
 constexpr const char* pieces_directory = "fields";
+// Of the instants that there are a share of one in so many may be missing in the lists. Writing the lists
+// then takes so many times what writing them once takes, whatever the number of instants.
+constexpr std::size_t instants_per_unlisted = 16;
 
 std::string group_name(std::size_t index) {
   return fmt::format("t{:04}", index);
@@ -41,67 +45,12 @@ auto with_path(const char* verb, const fs::path& path, Action action) {
   }
 }
 
-void write_scalar(hid_t group, const char* name, const CellFields& fields,
-                  const std::vector<double>& values) {
-  const hsize_t shape[] = {static_cast<hsize_t>(fields.cells[2]), static_cast<hsize_t>(fields.cells[1]),
-                           static_cast<hsize_t>(fields.cells[0])};
-  std::vector<float> single(values.size());
-  for (std::size_t c = 0; c < values.size(); ++c) single[c] = static_cast<float>(values[c]);
-  hdf5::write_compressed(group, name, shape, single);
-}
-
-// Always three components: a missing one, in 2D, is 0.
-void write_vector(hid_t group, const char* name, const CellFields& fields,
-                  const std::array<std::vector<double>, 3>& components) {
-  const hsize_t shape[] = {static_cast<hsize_t>(fields.cells[2]), static_cast<hsize_t>(fields.cells[1]),
-                           static_cast<hsize_t>(fields.cells[0]), 3};
-  std::vector<float> single(3 * fields.f_s.size(), 0.0F);
-  for (std::size_t d = 0; d < 3; ++d) {
-    for (std::size_t c = 0; c < components[d].size(); ++c)
-      single[3 * c + d] = static_cast<float>(components[d][c]);
-  }
-  hdf5::write_compressed(group, name, shape, single);
-}
-
-void write_instant(hid_t group, const CellFields& fields) {
-  hdf5::write_attribute(group, "time", fields.time);
-  write_scalar(group, "f_s", fields, fields.f_s);
-  write_scalar(group, "alpha", fields, fields.alpha);
-  write_scalar(group, "p_c", fields, fields.p_c);
-  write_scalar(group, "theta", fields, fields.theta);
-  write_scalar(group, "phi", fields, fields.phi);
-  if (!fields.p_s.empty()) write_scalar(group, "p_s", fields, fields.p_s);
-  write_vector(group, "u_s", fields, fields.u_s);
-  write_vector(group, "u_c", fields, fields.u_c);
-}
-
-// Time, grid and solid fraction.
-CellFields solid_fraction_of(hid_t file, hid_t group) {
-  CellFields fields;
-  fields.time = hdf5::read_double_attribute(group, "time");
-  const auto cells = hdf5::read_double_array_attribute(file, "cells");
-  const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
-  if (cells.size() != 3 || spacing.size() != 3) throw std::runtime_error("cells or spacing is not a triple");
-  std::size_t count = 1;
-  for (std::size_t d = 0; d < 3; ++d) {
-    fields.cells[d] = static_cast<int>(cells[d]);
-    fields.spacing[d] = spacing[d];
-    count *= static_cast<std::size_t>(fields.cells[d]);
-  }
-  fields.f_s = hdf5::read_doubles(group, "f_s");
-  if (fields.f_s.size() != count)
-    throw std::runtime_error(fmt::format("f_s has {} values for {} cells", fields.f_s.size(), count));
-  return fields;
-}
-
-std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
-  const auto values = hdf5::read_doubles(group, name);
-  std::array<std::vector<double>, 3> components;
-  for (std::size_t d = 0; d < 3; ++d) {
-    components[d].reserve(values.size() / 3);
-    for (std::size_t c = d; c < values.size(); c += 3) components[d].push_back(values[c]);
-  }
-  return components;
+std::vector<double> times_of(hid_t file) {
+  std::vector<double> times;
+  const auto count = hdf5::names_in(file).size();
+  for (std::size_t index = 0; index < count; ++index)
+    times.push_back(hdf5::read_double_attribute(hdf5::open_group(file, group_name(index)), "time"));
+  return times;
 }
 
 // Copies one group of `source` to `target`; links to other files are followed.
@@ -139,31 +88,6 @@ void remove_pieces(const fs::path& folder, std::size_t first) {
 
 }  // namespace
 
-void check_sizes(const CellFields& fields) {
-  std::size_t count = 1;
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (fields.cells[d] < 1 || !(fields.spacing[d] > 0.0)) {
-      throw std::invalid_argument(
-          fmt::format("fields with {} cells of {} m in direction {}", fields.cells[d], fields.spacing[d], d));
-    }
-    count *= static_cast<std::size_t>(fields.cells[d]);
-  }
-  const auto check = [&](const std::vector<double>& values, const char* name, bool may_be_empty) {
-    if (values.size() == count || (may_be_empty && values.empty())) return;
-    throw std::invalid_argument(fmt::format("{} has {} values for {} cells", name, values.size(), count));
-  };
-  check(fields.f_s, "f_s", false);
-  check(fields.alpha, "alpha", false);
-  check(fields.p_c, "p_c", false);
-  check(fields.p_s, "p_s", true);
-  check(fields.theta, "theta", false);
-  check(fields.phi, "phi", false);
-  for (std::size_t d = 0; d < 3; ++d) {
-    check(fields.u_s[d], "u_s", d == 2 && fields.cells[2] == 1);
-    check(fields.u_c[d], "u_c", d == 2 && fields.cells[2] == 1);
-  }
-}
-
 FieldsFile::FieldsFile(fs::path directory, const Scene& scene)
     : directory_(std::move(directory)),
       scene_name_(scene.name),
@@ -176,24 +100,29 @@ fs::path FieldsFile::piece(std::size_t index) const {
 
 FieldsFile FieldsFile::create(const fs::path& directory, const Scene& scene) {
   FieldsFile file(directory, scene);
-  file.write_index();
+  file.write_lists();
   return file;
 }
 
 void FieldsFile::check_instants(const fs::path& directory, std::span<const double> times) {
   const auto path = directory / file_name;
-  const std::vector<double> there = read_field_times(path);
-  for (std::size_t index = 0; index < times.size(); ++index) {
-    if (index < there.size() && there[index] == times[index]) {
-      (void)read_fields(path, index);  // a damaged instant would be carried into the joined file
-      continue;
+  const hdf5::QuietErrors quiet;
+  const auto file = hdf5::open_for_reading(path);
+  with_path("read", path, [&] {
+    const std::vector<double> there = times_of(file);
+    for (std::size_t index = 0; index < times.size(); ++index) {
+      if (index < there.size() && there[index] == times[index]) {
+        (void)read_instant(file,
+                           group_name(index));  // a damaged instant would be carried into the joined file
+        continue;
+      }
+      throw OutputError(
+          "resume", path,
+          fmt::format("instant {} should be of t = {} s, the case asks for it before the checkpoint, and {}",
+                      index + 1, times[index],
+                      index < there.size() ? fmt::format("is of {} s", there[index]) : "is not there"));
     }
-    throw OutputError(
-        "resume", path,
-        fmt::format("instant {} should be of t = {} s, the case asks for it before the checkpoint, and {}",
-                    index + 1, times[index],
-                    index < there.size() ? fmt::format("is of {} s", there[index]) : "is not there"));
-  }
+  });
 }
 
 FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, std::span<const double> times) {
@@ -218,7 +147,7 @@ FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, std
       }
     });
   }
-  result.write_index();
+  result.write_lists();
   remove_pieces(directory / pieces_directory, result.instants_.size());
   return result;
 }
@@ -254,12 +183,17 @@ void FieldsFile::append(const CellFields& fields) {
   });
   write_file_atomically(path, content);
   instants_.push_back({fields.time, !fields.p_s.empty()});
+  if (instants_.size() - listed_ <= instants_.size() / instants_per_unlisted) return;
   try {
-    write_index();
+    write_lists();
   } catch (...) {
     instants_.pop_back();
     throw;
   }
+}
+
+void FieldsFile::bring_up_to_date() {
+  if (listed_ < instants_.size()) write_lists();
 }
 
 std::string FieldsFile::xdmf() const {
@@ -281,7 +215,7 @@ void FieldsFile::write_file_attributes(std::int64_t file) const {
   hdf5::write_attribute(file, "origin", std::span<const double>(origin));
 }
 
-void FieldsFile::write_index() const {
+void FieldsFile::write_lists() {
   const auto path = directory_ / file_name;
   const std::string content = with_path("write", path, [&] {
     const hdf5::QuietErrors quiet;
@@ -298,6 +232,7 @@ void FieldsFile::write_index() const {
   });
   write_file_atomically(path, content);
   write_file_atomically(directory_ / "fields.xdmf", xdmf());
+  listed_ = instants_.size();
 }
 
 bool FieldsFile::join() {
@@ -306,6 +241,7 @@ bool FieldsFile::join() {
   const auto draft = directory_ / "fields.h5.tmp";
   std::error_code ignored;
   try {
+    bring_up_to_date();
     const hdf5::QuietErrors quiet;
     reserve_for_joining(draft);
     const auto source = hdf5::open_for_reading(path);
@@ -343,43 +279,19 @@ void FieldsFile::reserve_for_joining(const fs::path& draft) const {
 std::vector<double> read_field_times(const fs::path& fields_h5) {
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(fields_h5);
-  return with_path("read", fields_h5, [&] {
-    std::vector<double> times;
-    const auto count = hdf5::names_in(file).size();
-    for (std::size_t index = 0; index < count; ++index) {
-      times.push_back(hdf5::read_double_attribute(hdf5::open_group(file, group_name(index)), "time"));
-    }
-    return times;
-  });
+  return with_path("read", fields_h5, [&] { return times_of(file); });
 }
 
 CellFields read_fields(const fs::path& fields_h5, std::size_t index) {
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(fields_h5);
-  return with_path("read", fields_h5, [&] {
-    const auto group = hdf5::open_group(file, group_name(index));
-    CellFields fields = solid_fraction_of(file, group);
-    fields.alpha = hdf5::read_doubles(group, "alpha");
-    fields.p_c = hdf5::read_doubles(group, "p_c");
-    fields.theta = hdf5::read_doubles(group, "theta");
-    fields.phi = hdf5::read_doubles(group, "phi");
-    if (hdf5::exists(group, "p_s")) fields.p_s = hdf5::read_doubles(group, "p_s");
-    fields.u_s = read_vector(group, "u_s");
-    fields.u_c = read_vector(group, "u_c");
-    try {
-      check_sizes(fields);
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(group_name(index) + ": " + error.what());
-    }
-    return fields;
-  });
+  return with_path("read", fields_h5, [&] { return read_instant(file, group_name(index)); });
 }
 
 CellFields read_solid_fraction(const fs::path& fields_h5, std::size_t index) {
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(fields_h5);
-  return with_path("read", fields_h5,
-                   [&] { return solid_fraction_of(file, hdf5::open_group(file, group_name(index))); });
+  return with_path("read", fields_h5, [&] { return read_solid_fraction_of(file, group_name(index)); });
 }
 
 }  // namespace granvof

@@ -1,9 +1,10 @@
 // fields.h5: one group per output time, and fields.xdmf that shows it to ParaView.
 //
 // While a run goes on each instant is a file of its own, fields/tNNNN.h5, and fields.h5 links to them: every
-// file is written whole and renamed, so that a run killed at any moment leaves readable output, at a cost
-// that does not grow with the number of instants. join() makes fields.h5 one file without links. Readers see
-// no difference.
+// file is written whole and renamed, so that a run killed at any moment leaves readable output. The two lists
+// of all instants (fields.h5 and fields.xdmf) grow with their number; written anew for every instant they
+// would cost its square. So they may lag behind by one instant in sixteen, and are up to date at a checkpoint
+// and at every end but a kill. join() makes fields.h5 one file without links. Readers see no difference.
 #pragma once
 
 #include <array>
@@ -34,6 +35,8 @@ class FieldsFile {
 
   // Adds an instant. Throws OutputError; std::invalid_argument if an array has not the size of the grid.
   void append(const CellFields& fields);
+  // Lists every instant in fields.h5 and fields.xdmf, where they lag behind. Throws OutputError.
+  void bring_up_to_date();
   // Throws OutputError if an instant has been removed since it was written.
   void check_still_there() const;
   std::size_t instants() const { return instants_.size(); }
@@ -44,7 +47,7 @@ class FieldsFile {
  private:
   FieldsFile(std::filesystem::path directory, const Scene& scene);
   std::filesystem::path piece(std::size_t index) const;
-  void write_index() const;
+  void write_lists();
   void write_file_attributes(std::int64_t file) const;
   std::string xdmf() const;
   void reserve_for_joining(const std::filesystem::path& draft) const;
@@ -59,6 +62,7 @@ class FieldsFile {
   std::array<int, 3> cells_{};
   Vec3 spacing_{};
   std::vector<Instant> instants_;
+  std::size_t listed_ = 0;  // instants that the files on the disk list
 };
 
 // Output times [s] of a fields.h5, in order. Throws OutputError.
@@ -68,9 +72,5 @@ CellFields read_fields(const std::filesystem::path& fields_h5, std::size_t index
 // The same with time, grid and solid fraction alone: what a record of the reference holds of a run's fields
 // is not all of them. Throws OutputError.
 CellFields read_solid_fraction(const std::filesystem::path& fields_h5, std::size_t index);
-
-// Throws std::invalid_argument naming the array whose size is not that of `fields.cells`.
-// `p_s` may be empty everywhere, component 2 of the velocities where there is one layer of cells.
-void check_sizes(const CellFields& fields);
 
 }  // namespace granvof

@@ -11,6 +11,7 @@
 #include "solver/output/build_info.hpp"
 #include "solver/output/host_facts.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/seal.hpp"
 #include "solver/plausibility/plausibility.hpp"
 
 namespace granvof {
@@ -135,17 +136,20 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
   json["host"] = host_json();
   json["resolved_case"] = scene.resolved;
   // Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return sealed(json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(run_json, none)) return std::nullopt;
-  const auto json = ordered_json::parse(read_file(run_json), nullptr, false);
+  const std::string text = read_file(run_json);
+  const auto json = ordered_json::parse(text, nullptr, false);
   try {
     if (json.is_discarded() || json.at("format") != format_name) return std::nullopt;
+    require_seal(text, json.contains("sha256"), run_json);
     ExistingRun run;
     run.program = json.at("program");
+    run.version = json.at("version");
     run.scene = json.at("scene");
     run.case_hash = json.at("case_hash");
     run.resolved_case = json.at("resolved_case");

@@ -78,14 +78,16 @@ struct FilesWritten {
   std::optional<double> checkpoint;  // time of checkpoint.h5 [s]: what the run can go on from
 };
 
-// The text of run.json. Numbers that are not finite become null.
+// The text of run.json, sealed (seal.hpp). Numbers that are not finite become null.
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
                             const FilesWritten& files, const RunExit& exit);
 
 // What resuming and overwriting need of an existing run.json; nullopt if the file is not a granvof run.json.
+// Throws OutputError where something in it was changed since it was written.
 struct ExistingRun {
   RunRecord record;
   std::string program;
+  std::string version;
   std::string scene;
   std::string case_hash;
   std::string resolved_case;

@@ -10,7 +10,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <unistd.h>
 
+#include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof {
@@ -65,6 +67,8 @@ std::string difference(const ExistingRun& existing, const Scene& scene, const Ru
 Descriptor lock_directory(const fs::path& directory) {
   Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!lock.valid()) throw OutputError("write to", directory, std::generic_category().message(errno));
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw OutputError("write to", directory, std::generic_category().message(errno));
   if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
     throw OutputError(
         "write to", directory,
@@ -120,6 +124,11 @@ ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, cons
   if (!existing) return {std::move(writer), std::nullopt, {}};
   if (const std::string other = difference(*existing, scene, start); !other.empty()) {
     throw OutputError("resume", directory, other + "; only time.end and output that is due later may change");
+  }
+  if (saved && existing->version != build_info().version) {
+    throw OutputError("resume", directory,
+                      fmt::format("it was begun by version {}, this is {}; go on with that, or run it anew",
+                                  existing->version, build_info().version));
   }
   if (!saved && existing->has_checkpoint)
     throw OutputError("resume", directory, "its checkpoint.h5 has gone; run it anew without --resume");
@@ -188,6 +197,7 @@ void RunWriter::write_checkpoint(const CheckpointView& state, const RunProgress&
   start_writing();
   series_->flush_to_disk();
   fields_->check_still_there();
+  fields_->bring_up_to_date();
   granvof::write_checkpoint(checkpoint_path(), scene_, state);
   checkpoint_time_ = state.time;
   write_record(progress, {});
@@ -202,6 +212,7 @@ void RunWriter::finish(const RunProgress& progress, const RunExit& exit) {
   start_writing();
   series_->flush_to_disk();
   fields_->check_still_there();
+  fields_->bring_up_to_date();
   // A run that may go on keeps its instants apart; where joining fails the linked form stays, just as
   // readable.
   if (exit.state == ExitState::finished && fields_->join())
@@ -218,6 +229,7 @@ void RunWriter::give_up(const RunProgress& progress, const std::string& reason) 
     } catch (const OutputError&) {
       overwrite_file(directory_ / record_name, run_record_text(scene_, record_, progress, files(), exit));
     }
+    if (fields_) fields_->bring_up_to_date();
   } catch (const std::exception&) {
     return;  // the caller has said on stderr what is wrong
   }

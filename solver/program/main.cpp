@@ -2,12 +2,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -15,14 +13,17 @@
 
 #include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/printable.hpp"
 #include "solver/scene/restate.hpp"
 
 namespace {
 
 constexpr int bad_input = 2;
+constexpr std::size_t longest_message = 1500;  // bytes; it holds the name of a directory
 constexpr int most_threads = 256;
 
 struct Arguments {
@@ -151,33 +152,20 @@ void send_messages_to_stderr() {
   spdlog::set_default_logger(spdlog::stderr_color_mt("granvof"));
 }
 
-// A standard stream that the caller has closed must not be the number that the next file opened gets:
-// messages would go into a result.
-void keep_standard_streams_taken() {
-  while (true) {
-    const int fd = ::open("/dev/null", O_RDWR);
-    if (fd > STDERR_FILENO || fd < 0) {
-      ::close(fd);
-      return;
-    }
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_standard_streams_taken();
+  granvof::keep_standard_streams_taken();
   send_messages_to_stderr();
   try {
     const int code = parse_and_run(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)  // what nobody could read was not said
-      throw std::runtime_error("cannot write to standard output");
+    granvof::require_stdout_written();
     return code;
   } catch (const granvof::CaseError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
   } catch (const granvof::OutputError& error) {
-    fmt::print(stderr, "granvof: {}\n", error.what());
+    fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
     return bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "granvof: {}\n", error.what());

@@ -1,9 +1,7 @@
 #include "solver/run/run_case.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <csignal>
 #include <ctime>
 
 #include <omp.h>
@@ -12,6 +10,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
+#include "solver/output/stop_signals.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/checkpoint_state.hpp"
 #include "solver/run/memory_demand.hpp"
@@ -23,38 +22,6 @@
 
 namespace granvof {
 namespace {
-
-// The signal that asked for the end; setting it is the one thing a signal handler may do.
-volatile std::sig_atomic_t stop_requested = 0;
-void request_stop(int signal) {
-  stop_requested = signal;
-}
-
-struct NamedSignal {
-  int number;
-  const char* name;
-};
-// What ends a run with a checkpoint: from a terminal, a shell, a scheduler before it kills, or a reader of
-// our messages that has gone.
-constexpr std::array stopping_signals{NamedSignal{SIGINT, "SIGINT"},   NamedSignal{SIGTERM, "SIGTERM"},
-                                      NamedSignal{SIGHUP, "SIGHUP"},   NamedSignal{SIGUSR1, "SIGUSR1"},
-                                      NamedSignal{SIGXCPU, "SIGXCPU"}, NamedSignal{SIGPIPE, "SIGPIPE"}};
-
-// One that the caller had ignored (nohup, a shell's background) stays ignored, but a broken pipe: that is how
-// the run learns of it. A file that may not grow (SIGXFSZ) shows as a failed write.
-void listen_to_signals() {
-  stop_requested = 0;
-  for (const NamedSignal& signal : stopping_signals)
-    if (std::signal(signal.number, request_stop) == SIG_IGN && signal.number != SIGPIPE)
-      std::signal(signal.number, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
-std::string name_of_signal(int number) {
-  const auto* found = std::find_if(stopping_signals.begin(), stopping_signals.end(),
-                                   [=](const NamedSignal& s) { return s.number == number; });
-  return found == stopping_signals.end() ? std::to_string(number) : found->name;
-}
 
 double core_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -276,8 +243,7 @@ int Run::go() {
 
 int Run::loop() {
   for (;;) {
-    if (stop_requested)
-      return finish(ExitState::stopped, "stopped by a signal (" + name_of_signal(stop_requested) + ")");
+    if (const std::string reason = stop_reason(); !reason.empty()) return finish(ExitState::stopped, reason);
     if (!advance()) return finish(ExitState::failed, trouble_);
     write_output(next_, due_output(scene_.times, next_.time, now_.time));
     trouble_ = alarms_.check(now_, monitors_,
@@ -299,7 +265,7 @@ int Run::loop() {
 int run_case(const Scene& scene, const RunOptions& options) {
   check_memory(scene);
   omp_set_num_threads(std::max(1, options.threads));
-  listen_to_signals();
+  listen_to_stop_signals();
   return Run(scene, options).go();
 }
 

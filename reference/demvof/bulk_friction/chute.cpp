@@ -8,6 +8,7 @@
 #include "reference/demvof/beads/bead_engine.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
 #include "reference/demvof/preparation/rough_floor.hpp"
+#include "solver/output/stop_signals.hpp"
 
 namespace demvof {
 
@@ -157,7 +158,10 @@ ChuteResult run_chute(const ChuteSettings& s) {
     std::vector<Profile> windows;
     windows.reserve(windows_per_stage);
     const double begin = chute.engine().time();
-    for (int w = 0; w < windows_per_stage; ++w) windows.push_back(chute.window(steps));
+    for (int w = 0; w < windows_per_stage; ++w) {
+      windows.push_back(chute.window(steps));
+      granvof::throw_if_stopped();
+    }
     for (std::size_t w = 1; w + 1 < windows.size(); ++w) {
       std::vector<double> acceleration(windows[w].velocity.size());
       for (std::size_t bin = 0; bin < acceleration.size(); ++bin) {

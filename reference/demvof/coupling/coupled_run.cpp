@@ -56,16 +56,12 @@ void CoupledRun::deposit_solid_fraction() {
   mapping_.deposit(beads_->bead_volume() / mapping_.cell_volume(), solid_fraction_);
 }
 
-int CoupledRun::steps_that_fit(double longest) const {
-  const double dt = beads_->settings().dt;
+// In a step in which the liquid moves by less than half a cell.
+long CoupledRun::bead_steps_allowed() const {
   double duration = settings_.fluid_dt;
   const double rate = std::max(fluid_->courant_rate_liquid(), 0.25 * fluid_->courant_rate());
   if (rate * duration > courant_limit) duration = courant_limit / rate;
-  // Equal shares of what is left: a short last step would break the lag of one step between the two sides.
-  const auto left = std::max(1L, std::lround(longest / dt));
-  const auto most = std::max(1L, static_cast<long>(std::floor(duration / dt * (1.0 + 1e-9))));
-  const long shares = (left + most - 1) / most;
-  return static_cast<int>((left + shares - 1) / shares);
+  return std::max(1L, static_cast<long>(std::floor(duration / beads_->settings().dt * (1.0 + 1e-9))));
 }
 
 std::vector<double> CoupledRun::drag_impulse(const std::vector<double>& old_position, double duration) const {
@@ -84,15 +80,25 @@ std::vector<double> CoupledRun::drag_impulse(const std::vector<double>& old_posi
   return impulse;
 }
 
-double CoupledRun::step(double longest) {
-  const int steps = steps_that_fit(longest);
-  const double duration = steps * beads_->settings().dt;
+double CoupledRun::step() {
+  return advance(static_cast<int>(bead_steps_allowed()));
+}
+
+double CoupledRun::step(double left_to_go) {
+  // Equal shares of what is left: a short last step would break the lag of one step between the two sides.
+  const auto left = std::max(1L, std::lround(left_to_go / beads_->settings().dt));
+  const long most = bead_steps_allowed(), shares = (left + most - 1) / most;
+  return advance(static_cast<int>((left + shares - 1) / shares));
+}
+
+double CoupledRun::advance(int bead_steps) {
+  const double duration = bead_steps * beads_->settings().dt;
 
   FluidLoad with_carry = load_;
   for (std::size_t n = 0; n < carry_.size(); ++n) with_carry.force[n] += carry_[n] / duration;
   const std::vector<double> old_position = beads_->state().position;
   beads_->set_load(with_carry);
-  beads_->run(steps);
+  beads_->run(bead_steps);
 
   const std::vector<double> impulse = drag_impulse(old_position, duration);
   mapping_.update(beads_->state().position);

@@ -7,6 +7,7 @@
 // exchange exactly what they lose and gain but for one step's lag.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,9 +41,12 @@ class CoupledRun {
              const std::vector<double>& frozen_positions, const FluidSettings& fluid,
              const std::vector<double>& alpha);
 
-  // One step of at most `longest` [s] (a multiple of the DEM step, at least one). Returns its length.
-  // Throws std::runtime_error when either side fails.
-  double step(double longest);
+  // One step as long as the flow allows (a multiple of the DEM step, at least one), at most longest_step().
+  // Returns its length [s]. Throws std::runtime_error when either side fails.
+  double step();
+  // The same on the way to an event that is `left` [s] away: in equal shares, as long as the flow allows.
+  double step(double left);
+  double longest_step() const { return std::max(settings_.fluid_dt, beads_->settings().dt); }  // [s]
 
   // The gate's lower edge stands at `edge` [m] over the floor for the fluid; <= 0 closed.
   // The beads' plate is moved by the bead engine.
@@ -78,7 +82,8 @@ class CoupledRun {
   void predict_pressure_force();
   void renew_load();
   void renew_drag();
-  int steps_that_fit(double longest) const;
+  long bead_steps_allowed() const;
+  double advance(int bead_steps);
   std::vector<double> drag_impulse(const std::vector<double>& old_position, double duration) const;
 };
 

@@ -10,6 +10,7 @@
 
 #include "reference/demvof/beads/bead_engine.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
+#include "solver/output/stop_signals.hpp"
 
 namespace demvof {
 
@@ -43,6 +44,7 @@ void settle(BeadEngine& engine, double still_share) {
   const double start = engine.time();
   for (int n = 0; engine.time() - start < longest_settling; ++n) {
     engine.run(burst);
+    granvof::throw_if_stopped();
     if (n > 1 && rms_speed(engine.state()) < still) return;
   }
   throw std::runtime_error(fmt::format("the column does not come to rest: {:.3g} m/s after {} s",

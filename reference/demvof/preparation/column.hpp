@@ -38,7 +38,8 @@ struct Column {
   double residual_speed = 0.0;   // rms speed of the beads when the preparation ended [m/s]
 };
 
-// Throws std::runtime_error when the beads do not come to rest or do not fill the wanted height.
+// Throws std::runtime_error when the beads do not come to rest or do not fill the wanted height,
+// granvof::StopRequested where a signal asks for the end meanwhile.
 Column prepare_column(const ColumnSettings& settings);
 
 // Solid fraction of the part of a set of beads inside a box, by counting centres [-].

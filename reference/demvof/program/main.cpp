@@ -12,11 +12,14 @@
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/standard_streams.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace {
 
 constexpr int bad_input = 2;
+constexpr std::size_t longest_message = 1500;  // bytes; it holds the name of a directory
 
 struct Arguments {
   std::string case_file;
@@ -108,13 +111,16 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  granvof::keep_standard_streams_taken();
   try {
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    granvof::require_stdout_written();
+    return code;
   } catch (const granvof::CaseError& error) {
-    fmt::print(stderr, "demvof: {}\n", error.what());
+    fmt::print(stderr, "demvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
     return bad_input;
   } catch (const granvof::OutputError& error) {  // a directory that cannot be used
-    fmt::print(stderr, "demvof: {}\n", error.what());
+    fmt::print(stderr, "demvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
     return bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "demvof: {}\n", error.what());

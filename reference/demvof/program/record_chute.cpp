@@ -10,6 +10,7 @@
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/digest.hpp"
 #include "solver/output/run_record.hpp"
+#include "solver/output/stop_signals.hpp"
 
 namespace demvof {
 
@@ -46,6 +47,7 @@ granvof::FilesWritten files_of(const ChuteResult& result, const std::string& ser
 
 int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
   check_beads(scene);
+  granvof::listen_to_stop_signals();  // nothing is written before the end, and nothing is then
   const auto clock = std::chrono::steady_clock::now();
   const std::string date = granvof::iso_date_now();
   ChuteSettings chute;

@@ -1,6 +1,7 @@
 """Reads a run directory with tools that share no code with the writer: h5py, csv, json and an XML parser."""
 
 import csv
+import hashlib
 import json
 import os
 import subprocess
@@ -85,5 +86,8 @@ def test_series_and_record(runs, name):
     assert rows[0][0] == "time [s]"
     assert [row[0] for row in rows[1:]] == ["0", "0.5"]
     assert {len(row) for row in rows} == {len(rows[0])}
-    record = json.loads((runs / name / "run.json").read_text())
+    text = (runs / name / "run.json").read_text()
+    content, _, seal = text.rpartition(',\n  "sha256": "')
+    assert seal == hashlib.sha256(content.encode()).hexdigest() + '"\n}\n'
+    record = json.loads(text)
     assert record["exit"]["state"] == ("finished" if name == "2d" else "running")

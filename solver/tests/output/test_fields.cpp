@@ -1,3 +1,6 @@
+#include <cstdint>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "solver/output/atomic_file.hpp"
@@ -107,6 +110,29 @@ TEST(FieldsFile, ResumeRemovesLaterInstantsLinkedOrJoined) {
   }
 }
 
+// What was written stands in the joined file in the end: an instant that cannot be read is not gone on from.
+TEST(FieldsFile, ADamagedInstantIsRefusedOnResumeLinkedOrJoined) {
+  const auto scene = make_scene(2, {100, 100, 1}, {1.0, 1.0, 1.0});  // most of a file is compressed numbers
+  for (const bool joined : {false, true}) {
+    const TemporaryDirectory directory;
+    auto file = FieldsFile::create(directory.path(), scene);
+    const std::vector times{0.0, 1.0};
+    for (const double t : times) file.append(numbered_fields(scene, t));
+    if (joined) {
+      ASSERT_TRUE(file.join());
+    }
+    EXPECT_NO_THROW(FieldsFile::check_instants(directory.path(), times));
+    const auto damaged = directory.path() / (joined ? "fields.h5" : "fields/t0001.h5");
+    std::string bytes = read_file(damaged);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    write_file_atomically(damaged, bytes);
+    const auto text = message_of<OutputError>([&] { FieldsFile::check_instants(directory.path(), times); });
+    EXPECT_NE(text.find("fields.h5"), std::string::npos) << text;
+    EXPECT_THROW(FieldsFile::resume(directory.path(), scene, times), OutputError);
+    EXPECT_EQ(read_file(damaged), bytes);
+  }
+}
+
 TEST(FieldsFile, AFullDiskIsReportedAndLeavesTheEarlierInstants) {
   const auto scene = make_scene(2, {100, 100, 1}, {1.0, 1.0, 1.0});
   const TemporaryDirectory directory;
@@ -124,6 +150,50 @@ TEST(FieldsFile, AFullDiskIsReportedAndLeavesTheEarlierInstants) {
   file.append(numbered_fields(scene, 1.0));
   EXPECT_TRUE(file.join());
   expect_same(read_fields(path, 1), numbered_fields(scene, 1.0));
+}
+
+// Bytes that this process has handed to write() and its like so far; none where the system does not count
+// them.
+std::int64_t bytes_written() {
+  std::ifstream counters("/proc/self/io");
+  std::string name;
+  for (std::int64_t value = 0; counters >> name >> value;)
+    if (name == "wchar:") return value;
+  return 0;
+}
+
+// Twice the instants, twice the bytes; where every instant rewrites the list of all of them, four times.
+TEST(FieldsFile, WhatAnInstantCostsDoesNotGrowWithTheirNumber) {
+  const auto scene = make_scene(2, {2, 2, 1}, {0.1, 0.1, 0.1});
+  const auto cost_of = [&](int instants) {
+    const TemporaryDirectory directory;
+    auto file = FieldsFile::create(directory.path(), scene);
+    const std::int64_t before = bytes_written();
+    for (int n = 0; n < instants; ++n) file.append(numbered_fields(scene, n));
+    file.bring_up_to_date();
+    EXPECT_EQ(read_field_times(directory.path() / "fields.h5").size(), static_cast<std::size_t>(instants));
+    return bytes_written() - before;
+  };
+  const std::int64_t some = cost_of(100);
+  if (some == 0) GTEST_SKIP() << "the system does not count what is written";
+  EXPECT_LT(static_cast<double>(cost_of(200)), 2.4 * static_cast<double>(some));
+}
+
+// A reader of a run that goes on, or was killed, finds all instants of a short one and nearly all of a long
+// one.
+TEST(FieldsFile, TheListOfInstantsIsNeverFarBehind) {
+  const auto scene = make_scene(2, {2, 2, 1}, {0.1, 0.1, 0.1});
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "fields.h5";
+  auto file = FieldsFile::create(directory.path(), scene);
+  for (std::size_t n = 1; n <= 60; ++n) {
+    file.append(numbered_fields(scene, static_cast<double>(n)));
+    const std::size_t listed = read_field_times(path).size();
+    EXPECT_GE(listed, n - n / 16) << n;
+  }
+  EXPECT_EQ(file.instants(), 60U);
+  ASSERT_TRUE(file.join());
+  EXPECT_EQ(read_field_times(path).size(), 60U);
 }
 
 TEST(FieldsFile, RefusesArraysOfAnotherSize) {

@@ -1,6 +1,5 @@
 #include <csignal>
 #include <fstream>
-#include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,72 +8,12 @@
 
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_writer.hpp"
-#include "solver/tests/output/samples.hpp"
+#include "solver/tests/output/run_directory.hpp"
 
 using namespace granvof;
 using namespace granvof::test;
 
 namespace {
-
-const std::vector<Column> monitors{{"dt", "s", "time step"}};
-
-class RunDirectory : public testing::Test {
- protected:
-  RunDirectory() {
-    for (int r = 0; r < 10; ++r) scene.times.row_times.push_back(0.1 * r);
-    scene.times.field_times = scene.times.row_times;
-    scene.times.end = 1.0;
-  }
-  RunWriter fresh() const { return RunWriter::fresh(run, scene, start, monitors); }
-  RunWriter resume() const { return RunWriter::resume(run, scene, start, monitors).writer; }
-
-  void write_row(RunWriter& writer, double time) const {
-    const std::vector<Value> dt{0.01};
-    writer.write_series_row(time, dt, extract_scalars(empty_fields(scene), scene));
-  }
-
-  // A whole short run with rows and instants at 0, 0.1, ... and a checkpoint at 0.2.
-  void write_run(int rows) const {
-    auto writer = fresh();
-    for (int r = 0; r < rows; ++r) {
-      const double time = 0.1 * r;
-      write_row(writer, time);
-      writer.write_fields(numbered_fields(scene, time));
-      if (r == 2) writer.write_checkpoint(state(time), progress(time));
-    }
-    writer.finish(progress(0.1 * rows), {ExitState::finished, ""});
-  }
-
-  static CheckpointView state(double time) {
-    CheckpointView view;
-    view.time = time;
-    view.scalars["dt"] = time;
-    return view;
-  }
-
-  static RunProgress progress(double time) {
-    RunProgress p;
-    p.steps = 50;
-    p.cells = 40;
-    p.simulated_time = time;
-    p.wall_seconds = 4.0;
-    p.core_seconds = 8.0;
-    p.cost = {{"pressure", 3.0}, {"drag", 1.0}};
-    p.solid_volume_error = 1e-13;
-    p.liquid_volume_error = std::numeric_limits<double>::quiet_NaN();
-    p.solid_fraction_max = 0.61;
-    p.monitors = {{"newton_iterations", 3.5}};
-    return p;
-  }
-
-  nlohmann::json record() const { return nlohmann::json::parse(read_file(run / "run.json")); }
-  std::vector<Value> row_times() const { return read_series(run / "series.csv").column("time"); }
-
-  TemporaryDirectory directory;
-  std::filesystem::path run = directory.path() / "out" / "sample";
-  Scene scene = small_scene();
-  RunStart start{"granvof", "granvof run sample.toml", 1, 2};
-};
 
 TEST_F(RunDirectory, HoldsWhatTheContractSays) {
   write_run(3);
@@ -293,127 +232,6 @@ TEST_F(RunDirectory, LeavesTheUsersOwnFilesInTheFolderOfTheFields) {
   EXPECT_FALSE(std::filesystem::exists(run / "fields/t0000.h5"));
 }
 
-TEST_F(RunDirectory, TheDraftOfARunKilledInItsFirstMomentIsInNobodysWay) {
-  std::filesystem::create_directories(run);
-  std::ofstream(run / "run.json.tmp") << "{\"format\": \"gran";
-  EXPECT_FALSE(RunWriter::resume(run, scene, start, monitors).checkpoint);
-  write_run(2);
-  EXPECT_EQ(row_times().size(), 2U);
-  std::filesystem::remove_all(run);
-  {  // ended before its first checkpoint: begins anew
-    auto killed = fresh();
-    write_row(killed, 0.0);
-    write_row(killed, 0.1);
-  }
-  for (const char* name : {"checkpoint.h5.tmp", "series.csv.tmp", "fields.h5.tmp", "run.json.tmp"})
-    std::ofstream(run / name) << "torn";
-  {
-    auto again = RunWriter::resume(run, scene, start, monitors);
-    EXPECT_FALSE(again.checkpoint);
-    write_row(again.writer, 0.0);
-  }
-  EXPECT_EQ(row_times().size(), 1U);
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(run))
-    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
-}
-
-TEST_F(RunDirectory, OnlyItsEndAndLaterOutputMayChangeOnResume) {
-  scene.resolved = "[time]\nend = 1\n\n[numerics]\ncfl = 0.4\n\n[output]\nfield_times = [0, 1]\n";
-  write_run(5);
-  const Scene as_written = scene;
-  scene.resolved = "[time]\nend = 1\n\n[numerics]\ncfl = 0.2\n\n[output]\nfield_times = [0, 1]\n";
-  const auto text = message_of<OutputError>([&] { resume(); });
-  EXPECT_NE(text.find("numerics.cfl was 0.4, is 0.2; only time.end and output"), std::string::npos) << text;
-  scene = as_written;
-  scene.resolved = "[time]\nend = 2\n\n[numerics]\ncfl = 0.4\n\n[output]\nfield_times = [0, 2]\n";
-  start.threads = 3;
-  resume().write_progress(progress(0.2));
-  const auto kept = record()["resumptions"].back();
-  EXPECT_EQ(kept["threads"], 3);
-  ASSERT_EQ(kept["changes"].size(), 2U);
-  EXPECT_EQ(kept["changes"][0]["key"], "time.end");
-  EXPECT_EQ(kept["changes"][0]["was"], "1");
-  EXPECT_EQ(kept["changes"][0]["is"], "2");
-  EXPECT_EQ(kept["changes"][1]["key"], "output.field_times");
-  resume().write_progress(progress(0.2));  // the history is kept
-  EXPECT_EQ(record()["resumptions"][0]["changes"].size(), 2U);
-  EXPECT_EQ(record()["resumptions"][1]["changes"].size(), 0U);
-  scene.times.end = 0.2;
-  EXPECT_NE(message_of<OutputError>([&] { resume(); }).find("the case ends at 0.2 s"), std::string::npos);
-}
-
-// Rows and instants up to the checkpoint are there, as the case asks for them, or there is no going on.
-TEST_F(RunDirectory, ResumeRefusesAHole) {
-  const auto refused = [&](const char* what) {
-    EXPECT_NE(message_of<OutputError>([&] { resume().write_progress(progress(0.2)); }).find(what),
-              std::string::npos)
-        << message_of<OutputError>([&] { resume().write_progress(progress(0.2)); });
-  };
-  write_run(5);
-  const std::string text = read_file(run / "series.csv");
-  std::vector<std::size_t> ends;
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (text[i] == '\n') ends.push_back(i + 1);
-  write_file_atomically(run / "series.csv", text.substr(0, ends[2]));  // older than the checkpoint
-  refused("row 3 should be of t = 0.2 s");
-  write_file_atomically(run / "series.csv", text.substr(0, ends[1]) + text.substr(ends[2]));  // one taken out
-  refused("row 2 should be of t = 0.1 s, the case asks for it before the checkpoint, and is of 0.2 s");
-  std::filesystem::remove(run / "series.csv");
-  refused("series.csv");
-  write_file_atomically(run / "series.csv", text);
-  scene.times.field_times.insert(scene.times.field_times.begin() + 1, 0.05);
-  refused("instant 2 should be of t = 0.05 s");
-  scene.times.field_times = {0.0, 0.2};
-  refused("instant 2 should be of t = 0.2 s, the case asks for it before the checkpoint, and is of 0.1 s");
-  scene.times.field_times = {0.0, 0.1, 0.2, 0.25};  // later ones may be other ones
-  resume().write_progress(progress(0.2));
-  EXPECT_EQ(read_field_times(run / "fields.h5").size(), 3U);
-  std::filesystem::remove(run / "fields/t0001.h5");
-  EXPECT_THROW(resume().write_progress(progress(0.2)), OutputError);
-  std::filesystem::remove(run / "checkpoint.h5");
-  refused("checkpoint.h5 has gone");
-}
-
-TEST_F(RunDirectory, WhatIsTakenAwayWhileItRunsIsNoticed) {
-  const auto begun = [&] {
-    std::filesystem::remove_all(run);
-    auto writer = fresh();
-    for (int r = 0; r < 3; ++r) {
-      write_row(writer, 0.1 * r);
-      writer.write_fields(numbered_fields(scene, 0.1 * r));
-    }
-    return writer;
-  };
-  const ExitState finished = ExitState::finished;
-  {
-    auto writer = begun();
-    std::filesystem::remove(run / "series.csv");
-    EXPECT_THROW(write_row(writer, 0.3), OutputError);
-    EXPECT_THROW(writer.write_checkpoint(state(0.3), progress(0.3)), OutputError);
-    EXPECT_THROW(writer.finish(progress(0.3), {finished, ""}), OutputError);
-  }
-  {
-    auto writer = begun();
-    std::filesystem::resize_file(run / "series.csv", 100);
-    EXPECT_THROW(write_row(writer, 0.3), OutputError);
-  }
-  {
-    auto writer = begun();
-    const std::string copy = read_file(run / "series.csv");
-    std::filesystem::remove(run / "series.csv");
-    std::ofstream(run / "series.csv") << copy;
-    EXPECT_THROW(write_row(writer, 0.3), OutputError);
-  }
-  for (const char* gone : {"fields", "fields/t0002.h5", "fields/t0001.h5"}) {
-    auto writer = begun();
-    std::filesystem::remove_all(run / gone);
-    EXPECT_THROW(writer.finish(progress(0.3), {finished, ""}), OutputError) << gone;
-    writer.give_up(progress(0.3), "gone");
-    EXPECT_EQ(record()["exit"]["state"], "failed");
-    EXPECT_EQ(record()["exit"]["reason"], "gone");
-  }
-}
-
 TEST_F(RunDirectory, StatesWhatItHolds) {
   write_run(3);
   const auto files = record()["files"];
@@ -446,18 +264,6 @@ TEST_F(RunDirectory, TheEndIsWrittenOverTheOldRecordWhereNoDraftCanBe) {
   writer.give_up(progress(0.1), "no space left on device");
   EXPECT_EQ(record()["exit"]["state"], "failed");
   EXPECT_EQ(record()["exit"]["reason"], "no space left on device");
-}
-
-TEST_F(RunDirectory, RowsThatWereChangedAreNotGoneOnWith) {
-  write_run(3);
-  std::string text = read_file(run / "series.csv");
-  const auto digit = text.find("0.01", text.find('\n'));
-  text[digit + 3] = '2';
-  std::ofstream(run / "series.csv") << text;
-  EXPECT_THROW(resume(), OutputError);
-  text[digit + 3] = '1';
-  std::ofstream(run / "series.csv") << text << "0.3,0.01";  // a row that a kill has torn
-  EXPECT_NO_THROW(resume());
 }
 
 // The room that is left ends within the record: half of the new one would be no record at all.

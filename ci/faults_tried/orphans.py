@@ -1,0 +1,70 @@
+"""Programs that start others, ended by a signal: nothing that they started goes on, and the next start finds its way free."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from faults_tried.bench import TableError
+
+START = 180.0  # seconds until the program has started another
+END = 30.0  # seconds after the signal in which all of them must have gone
+
+
+def processes_of(place):
+    """Processes that have a place in their command or work in it: number and command."""
+    found = {}
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            command = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            inside = Path(os.readlink(entry / "cwd")).is_relative_to(place)
+            ended = (entry / "stat").read_text().rpartition(")")[2].split()[0] == "Z"
+        except OSError:
+            continue  # it has ended, or is another user's
+        if (inside or f"{place}/" in command) and not ended:
+            found[int(entry.name)] = command
+    return found
+
+
+def wait_until(true, longest):
+    until = time.monotonic() + longest
+    while not true():
+        if time.monotonic() > until:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+def ended_in_the_midst(command, place, child, number, root):
+    """Why something was left of a command that got the signal once a process with `child` in its command was there."""
+    with open(place / "said", "w") as said:
+        running = subprocess.Popen([str(part) for part in command], cwd=root, stdin=subprocess.DEVNULL, stdout=said,
+                                   stderr=said)
+
+    def begun():
+        return running.poll() is not None or any(child in words for pid, words in processes_of(place).items()
+                                                 if pid != running.pid)
+
+    if not wait_until(begun, START) or running.poll() is not None:
+        running.kill()
+        running.wait()
+        raise TableError(f"{command[0]}: it has started no {child}: {(place / 'said').read_text()[-200:].strip()!r}")
+    running.send_signal(number)
+    running.wait()
+    gone = wait_until(lambda: not processes_of(place), END)
+    left = processes_of(place)
+    for pid in left:  # they are of this try: their command names its place
+        os.kill(pid, signal.SIGKILL)
+    return "" if gone else f"{len(left)} left, as {next(iter(left.values()), '?')[:100]!r}"
+
+
+def orphans(bench, entry):
+    """Ended while what it started goes on: nothing is left running."""
+    for name in bench.some(entry["signals"], entry.get("sample", len(entry["signals"]))):
+        place = bench.place()
+        (place / "checks.toml").write_text(entry.get("checks", ""))
+        command = bench.filled(entry["command"], work=place)
+        yield (f"{name} to {' '.join(entry['command'][:2])}",
+               ended_in_the_midst(command, place, entry["starts"], getattr(signal, "SIG" + name), bench.root))
+        bench.drop(place / "any")

@@ -1,0 +1,81 @@
+"""Data races, by the thread sanitizer.
+
+GCC's OpenMP library is not instrumented: its barriers and reductions would all be reported. So the solver is built by clang
+with LLVM's library, whose tool interface (OMPT) lets Archer tell the sanitizer what a barrier orders; what happens inside
+libraries that are not instrumented is left out, as Archer asks for (https://github.com/llvm/llvm-project, openmp/tools/archer).
+"""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from faults_tried.bench import NotTried, TableError
+
+FLAGS = ["-fsanitize=thread", "-O1", "-g"]
+FOUND = 66  # exit code of a program in which the sanitizer has found something
+PATIENCE = 3600.0
+
+RACE = """#include <cstdio>
+int main() {
+  long sum = 0, shared = 0;
+#pragma omp parallel for reduction(+ : sum) num_threads(2)
+  for (int i = 0; i < 1000; ++i) sum += i;
+#ifdef RACE
+#pragma omp parallel for num_threads(2)
+  for (int i = 0; i < 1000; ++i) shared += i;
+#endif
+  std::printf("%ld %ld\\n", sum, shared);
+}
+"""
+
+
+def tools():
+    """clang and the path of Archer; NotTried where one of them is missing."""
+    archers = sorted(Path("/usr/lib").glob("llvm-*/lib/libarcher.so"))
+    compiler = shutil.which("clang++")
+    if not compiler or not archers:
+        raise NotTried("clang++ and LLVM's OpenMP with Archer (libomp-dev) are not installed")
+    return compiler, archers[-1]
+
+
+def under_it(bench, command, archer):
+    """How a program ends under the sanitizer; TableError where Archer was not there."""
+    environment = {"OMP_TOOL_LIBRARIES": str(archer), "ARCHER_OPTIONS": "verbose=1",
+                   "TSAN_OPTIONS": f"ignore_noninstrumented_modules=1 exitcode={FOUND}"}
+    ended = bench.call(command, environment=environment, patience=PATIENCE)
+    said = ended.stderr.decode(errors="replace") + ended.stdout.decode(errors="replace") if ended else ""
+    if "Archer detected OpenMP application with TSan" not in said:
+        raise TableError(f"Archer was not loaded: {said[-200:]!r}")
+    return ended.returncode, said
+
+
+def races(code, said):
+    return "" if code == 0 and "WARNING: ThreadSanitizer" not in said else \
+        f"exit code {code}: " + said[max(0, said.find("WARNING: ThreadSanitizer")):][:300]
+
+
+def thread_sanitizer(bench, entry):
+    """Two threads under the thread sanitizer: silent. Not in a sample: it builds the solver a second time."""
+    if bench.sample:
+        return
+    compiler, archer = tools()
+    place = bench.place()
+    (place / "race.cpp").write_text(RACE)
+    for name, define, found in (("a race is seen", ["-DRACE"], True), ("a reduction is none", [], False)):
+        built = subprocess.run([compiler, *FLAGS, "-fopenmp", *define, "race.cpp", "-o", "race"], cwd=place, capture_output=True, text=True)
+        if built.returncode != 0:
+            raise NotTried(f"clang++ with the thread sanitizer builds nothing: {built.stderr.strip()[:150]}")
+        code, said = under_it(bench, [place / "race"], archer)
+        yield name, "" if (code == FOUND) == found else f"exit code {code}"
+    build = bench.build.parent / "threads"
+    configure = ["cmake", "-S", bench.root, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_COMPILER={compiler}",
+                 f"-DCMAKE_CXX_FLAGS={' '.join(FLAGS)}", "-DGRANVOF_REFERENCE=OFF"]
+    for command in (configure, ["cmake", "--build", build, "--target", "granvof_program", "--parallel", str(os.cpu_count())]):
+        made = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+        if made.returncode != 0:
+            raise TableError(f"{command[0]} {command[1]}: {(made.stdout + made.stderr).strip()[-300:]}")
+    for case in entry["cases"]:
+        sets = [word for override in entry["set"] for word in ("--set", override)]
+        command = [build / "solver/granvof", "run", case, *sets, "--threads", "2", "--out", bench.place() / "run"]
+        yield f"{case} with two threads", races(*under_it(bench, command, archer))

@@ -1,0 +1,102 @@
+#include "solver/output/fields_instant.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "solver/output/hdf5_file.hpp"
+
+namespace granvof {
+
+namespace {
+
+void write_scalar(hid_t group, const char* name, const CellFields& fields,
+                  const std::vector<double>& values) {
+  const hsize_t shape[] = {static_cast<hsize_t>(fields.cells[2]), static_cast<hsize_t>(fields.cells[1]),
+                           static_cast<hsize_t>(fields.cells[0])};
+  std::vector<float> single(values.size());
+  for (std::size_t c = 0; c < values.size(); ++c) single[c] = static_cast<float>(values[c]);
+  hdf5::write_compressed(group, name, shape, single);
+}
+
+// Always three components: a missing one, in 2D, is 0.
+void write_vector(hid_t group, const char* name, const CellFields& fields,
+                  const std::array<std::vector<double>, 3>& components) {
+  const hsize_t shape[] = {static_cast<hsize_t>(fields.cells[2]), static_cast<hsize_t>(fields.cells[1]),
+                           static_cast<hsize_t>(fields.cells[0]), 3};
+  std::vector<float> single(3 * fields.f_s.size(), 0.0F);
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t c = 0; c < components[d].size(); ++c)
+      single[3 * c + d] = static_cast<float>(components[d][c]);
+  }
+  hdf5::write_compressed(group, name, shape, single);
+}
+
+// Time, grid and solid fraction.
+CellFields solid_fraction_of(hid_t file, hid_t group) {
+  CellFields fields;
+  fields.time = hdf5::read_double_attribute(group, "time");
+  const auto cells = hdf5::read_double_array_attribute(file, "cells");
+  const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
+  if (cells.size() != 3 || spacing.size() != 3) throw std::runtime_error("cells or spacing is not a triple");
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    fields.cells[d] = static_cast<int>(cells[d]);
+    fields.spacing[d] = spacing[d];
+    count *= static_cast<std::size_t>(fields.cells[d]);
+  }
+  fields.f_s = hdf5::read_doubles(group, "f_s");
+  if (fields.f_s.size() != count)
+    throw std::runtime_error(fmt::format("f_s has {} values for {} cells", fields.f_s.size(), count));
+  return fields;
+}
+
+std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
+  const auto values = hdf5::read_doubles(group, name);
+  std::array<std::vector<double>, 3> components;
+  for (std::size_t d = 0; d < 3; ++d) {
+    components[d].reserve(values.size() / 3);
+    for (std::size_t c = d; c < values.size(); c += 3) components[d].push_back(values[c]);
+  }
+  return components;
+}
+
+}  // namespace
+
+void write_instant(hid_t group, const CellFields& fields) {
+  hdf5::write_attribute(group, "time", fields.time);
+  write_scalar(group, "f_s", fields, fields.f_s);
+  write_scalar(group, "alpha", fields, fields.alpha);
+  write_scalar(group, "p_c", fields, fields.p_c);
+  write_scalar(group, "theta", fields, fields.theta);
+  write_scalar(group, "phi", fields, fields.phi);
+  if (!fields.p_s.empty()) write_scalar(group, "p_s", fields, fields.p_s);
+  write_vector(group, "u_s", fields, fields.u_s);
+  write_vector(group, "u_c", fields, fields.u_c);
+}
+
+CellFields read_instant(hid_t file, const std::string& name) {
+  const auto group = hdf5::open_group(file, name);
+  CellFields fields = solid_fraction_of(file, group);
+  fields.alpha = hdf5::read_doubles(group, "alpha");
+  fields.p_c = hdf5::read_doubles(group, "p_c");
+  fields.theta = hdf5::read_doubles(group, "theta");
+  fields.phi = hdf5::read_doubles(group, "phi");
+  if (hdf5::exists(group, "p_s")) fields.p_s = hdf5::read_doubles(group, "p_s");
+  fields.u_s = read_vector(group, "u_s");
+  fields.u_c = read_vector(group, "u_c");
+  try {
+    check_sizes(fields);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(name + ": " + error.what());
+  }
+  return fields;
+}
+
+CellFields read_solid_fraction_of(hid_t file, const std::string& name) {
+  return solid_fraction_of(file, hdf5::open_group(file, name));
+}
+
+}  // namespace granvof

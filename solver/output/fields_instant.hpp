@@ -1,0 +1,22 @@
+// One instant of fields.h5: how cell fields lie in a group of HDF5.
+#pragma once
+
+#include <string>
+
+#include <hdf5.h>
+
+#include "solver/output/cell_fields.hpp"
+
+namespace granvof {
+
+// Writes attribute and datasets into an empty group: float32, u_s and u_c with three components each.
+// Throws std::runtime_error with HDF5's message.
+void write_instant(hid_t group, const CellFields& fields);
+
+// The group `name` of a fields.h5, the grid from the attributes of `file`. Throws std::runtime_error, also
+// where arrays have not the size of the grid.
+CellFields read_instant(hid_t file, const std::string& name);
+// Time, grid and solid fraction alone. Throws likewise.
+CellFields read_solid_fraction_of(hid_t file, const std::string& name);
+
+}  // namespace granvof

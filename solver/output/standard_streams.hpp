@@ -1,0 +1,14 @@
+// Standard streams of a program, which its caller may have closed or pointed at a full disk.
+#pragma once
+
+namespace granvof {
+
+// Opens /dev/null on every standard stream that is closed: its number would be that of the next file opened,
+// and messages would go into a result. The first call of a main().
+void keep_standard_streams_taken();
+
+// Throws std::runtime_error where something of what went to stdout was not written: what nobody could read
+// was not said. The last call of a main().
+void require_stdout_written();
+
+}  // namespace granvof
