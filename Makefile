@@ -3,6 +3,7 @@
 # REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is named as left out, and not judged)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
+# PREFIX=dir        where make install puts it (default: /usr/local)
 # LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
@@ -10,6 +11,8 @@ SHELL := /bin/bash
 PYTHON := /usr/bin/python3
 JOBS ?= $(shell nproc)
 OUT ?= out
+PREFIX ?= /usr/local
+DESTDIR ?=
 REFERENCE ?= on
 LABELS ?= unit|verification
 export JOBS
@@ -21,7 +24,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build verify test reference plots charts stability runout nightly faults bench format tidy sanitize
+.PHONY: help setup build install package verify test reference plots charts stability runout nightly faults bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -32,6 +35,12 @@ setup:  ## install what is missing (Debian packages; root or sudo)
 
 build: setup  ## build the programs, the reference left out
 	ci/build --programs release
+
+install: build  ## programs, Python module, man pages and completion into PREFIX (default: /usr/local; DESTDIR is kept to)
+	DESTDIR="$(DESTDIR)" cmake --install $(RELEASE) --prefix "$(PREFIX)"
+
+package: build  ## a Debian package of the same, for this machine's processor: out/granvof_VERSION_ARCH.deb
+	cd $(RELEASE) && cpack -G DEB -B "$(abspath $(OUT))"
 
 verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
 	$(call need,compare/verify)

@@ -49,6 +49,12 @@ struct Tolerance {
 struct ExpectedFailure {
   std::string reason;
   double distance = 0.0;  // largest distance from the tolerance's edge to be accepted as known, metric's unit
+  std::string cause;      // key of a Cause; empty in a table that declares none
+};
+
+// What several expected failures have in common.
+struct Cause {
+  std::string key, text;
 };
 
 struct Check {
@@ -79,6 +85,7 @@ struct PlannedRun {
 struct Table {
   std::vector<PlannedRun> runs;
   std::vector<Check> checks;
+  std::vector<Cause> causes;
 };
 
 std::string_view name_of(Frequency frequency);

@@ -107,7 +107,9 @@ Result measure_and_judge(Result result, const Evaluation& evaluation, const Run&
   result.reference = reference.value;
   result.band = reference.band;
   result.note = reference.note;
-  if (!measured.value) return without_value(std::move(result), Verdict::differs, measured.note);
+  if (!measured.value)
+    return without_value(std::move(result), check.asserted ? Verdict::differs : Verdict::reported,
+                         measured.note);
   if (!std::isfinite(*measured.value))
     return without_value(std::move(result), Verdict::not_run, "refused: the metric is not finite");
   if (!reference.value) return without_value(std::move(result), reference.without, reference.note);
@@ -192,6 +194,7 @@ std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency) {
 
 Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths, const LeftOut& left_out) {
   Evaluation evaluation;
+  evaluation.causes = table.causes;
   const auto checks = due_checks(table, frequency);
   if (checks.empty())
     throw TableError(fmt::format("no check of the table is due at '{}'", name_of(frequency)));

@@ -45,6 +45,7 @@ struct RunSummary {
 struct Evaluation {
   std::vector<RunSummary> runs;
   std::vector<Result> results;
+  std::vector<Cause> causes;                        // of the table
   std::map<std::string, Run> usable;                // the runs that could be read, by id
   std::map<std::string, std::vector<Run>> records;  // recorded variants that could be read, by record
   std::map<std::string, std::vector<Run>> peers;    // stock programs' runs of the same case, by run

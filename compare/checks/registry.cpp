@@ -76,6 +76,10 @@ Measured toe_drift(const Run& run, const Parameters& p, const FindRun&) {
   return {*move / column_of(run).height, ""};
 }
 
+Measured base_pressure_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(excess_base_pressure(run), *p.at), "no base pressure at that time");
+}
+
 Measured base_pressure_peak(const Run& run, const Parameters& p, const FindRun&) {
   return measured(peak_pressure(excess_base_pressure(run), *p.window), "no base pressure in the window");
 }
@@ -283,6 +287,8 @@ constexpr std::array table{
     MetricEntry{"toe_drift", "-",
                 "largest move over h0, in the window, of the place that 99.5 % of the grains have not passed",
                 window_only, toe_drift},
+    MetricEntry{"base_pressure", "Pa", "excess pore pressure at the base at t = at", at_only,
+                base_pressure_at},
     MetricEntry{"base_pressure_peak", "Pa",
                 "excess pore pressure at the base, the value of largest magnitude", window_only,
                 base_pressure_peak},

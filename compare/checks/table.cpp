@@ -1,6 +1,7 @@
 #include "compare/checks/table.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 #include <fmt/format.h>
@@ -159,20 +160,28 @@ struct Expected {
   std::vector<std::string> runs;
   std::vector<std::optional<double>> instants;
   std::vector<double> distances;  // one for each instant
+  std::string cause;
 
   std::optional<ExpectedFailure> of(const std::string& run, std::optional<double> at) const {
     if (std::ranges::find(runs, run) == runs.end()) return std::nullopt;
     const auto found = std::ranges::find(instants, at);
     if (found == instants.end()) return std::nullopt;
-    return ExpectedFailure{reason, distances[static_cast<std::size_t>(found - instants.begin())]};
+    return ExpectedFailure{reason, distances[static_cast<std::size_t>(found - instants.begin())], cause};
   }
 };
 
 // Without `run` those that the check names, without `at` all of its instants.
 Expected read_expected(const TomlEntry& entry, const std::vector<std::string>& runs,
-                       const std::vector<std::optional<double>>& instants) {
-  entry.allow_only({"reason", "distance", "run", "at"});
-  Expected expected{entry.text("reason"), runs, instants, entry.non_negatives("distance")};
+                       const std::vector<std::optional<double>>& instants, const std::vector<Cause>& causes) {
+  entry.allow_only({"reason", "distance", "run", "at", "cause"});
+  Expected expected{entry.text("reason"), runs, instants, entry.non_negatives("distance"), ""};
+  if (!causes.empty() || entry.has("cause")) {
+    expected.cause = entry.text("cause");
+    if (std::ranges::find(causes, expected.cause, &Cause::key) == causes.end())
+      entry.fail("cause",
+                 fmt::format("'{}' given, which no [[cause]] declares; there are: {}", expected.cause,
+                             fmt::join(causes | std::views::transform(&Cause::key), ", ")));
+  }
   if (entry.has("run")) expected.runs = entry.texts("run");
   if (entry.has("at")) {
     const std::vector<double> given = entry.numbers("at");
@@ -218,11 +227,12 @@ std::vector<const PlannedRun*> runs_of(const TomlEntry& entry, const std::vector
 
 std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<std::string>& named,
                                     const std::vector<const PlannedRun*>& made,
-                                    const std::vector<std::optional<double>>& instants) {
+                                    const std::vector<std::optional<double>>& instants,
+                                    const std::vector<Cause>& causes) {
   std::vector<Expected> failures;
   if (!check.has("expected_failure")) return failures;
   for (const TomlEntry& entry : check.entry_or_entries("expected_failure")) {
-    failures.push_back(read_expected(entry, named, instants));
+    failures.push_back(read_expected(entry, named, instants, causes));
     for (const std::string& id : failures.back().runs)
       if (std::ranges::none_of(made, [&](const PlannedRun* run) { return run->id == id; }))
         entry.fail("run", fmt::format("'{}' given, which is no run of the check", id));
@@ -231,7 +241,8 @@ std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<st
 }
 
 // A row for each of its references, instants and runs, and of the runs beside those.
-std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedRun>& runs) {
+std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedRun>& runs,
+                              const std::vector<Cause>& causes) {
   entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
                     "reference", "relation", "tolerance", "asserted", "frequency", "expected_failure",
                     "label"});
@@ -256,7 +267,7 @@ std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedR
   const std::vector<std::string> named = entry.texts("run");
   const std::vector<const PlannedRun*> made = runs_of(entry, named, runs);
   if (check.parameters.against) find_run(entry, "against", *check.parameters.against, runs);
-  const std::vector<Expected> failures = read_failures(entry, named, made, instants);
+  const std::vector<Expected> failures = read_failures(entry, named, made, instants, causes);
   if (!failures.empty() && !check.asserted)
     entry.fail("expected_failure", "a row that is not asserted cannot fail");
   std::vector<Check> checks;
@@ -289,7 +300,7 @@ std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedR
 
 Table read_root(const toml::table& root, std::string_view name) {
   const TomlEntry top(root, "table", name);
-  top.allow_only({"run", "check"});
+  top.allow_only({"run", "check", "cause"});
   Table table;
   std::set<std::string> runs, checks;
   for (const TomlEntry& entry : top.entries("run")) {
@@ -299,12 +310,23 @@ Table read_root(const toml::table& root, std::string_view name) {
   }
   for (const TomlEntry& entry : top.entries("run"))
     if (entry.has("beside")) find_run(entry, "beside", entry.text("beside"), table.runs);
+  std::set<std::string> causes;
+  for (const TomlEntry& entry : top.entries("cause")) {
+    entry.allow_only({"key", "text"});
+    table.causes.push_back({entry.text("key"), entry.text("text")});
+    if (!causes.insert(table.causes.back().key).second)
+      entry.fail("key", fmt::format("'{}' is given twice", table.causes.back().key));
+  }
+  std::set<std::string> used;
   for (const TomlEntry& entry : top.entries("check"))
-    for (Check& check : read_check(entry, table.runs)) {
+    for (Check& check : read_check(entry, table.runs, table.causes)) {
+      if (check.expected_failure) used.insert(check.expected_failure->cause);
       if (!checks.insert(check.id).second)
         entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
       table.checks.push_back(std::move(check));
     }
+  for (const TomlEntry& entry : top.entries("cause"))
+    if (!used.contains(entry.text("key"))) entry.fail("key", "no expected failure has this cause");
   if (table.checks.empty()) throw TableError(fmt::format("{}: there is no [[check]]", name));
   return table;
 }

@@ -31,6 +31,8 @@ std::string_view name_of(Verdict verdict) {
       return "differs";
     case Verdict::expected_failure:
       return "expected failure";
+    case Verdict::reported:
+      return "reported only";
     case Verdict::not_run:
       return "not run";
     case Verdict::stale:
@@ -66,6 +68,7 @@ Judgement judge(double value, double reference, double band, const Check& check)
     judgement.unexpected = check.expected_failure.has_value() || judgement.verdict == Verdict::differs;
   }
   judgement.unexpected = judgement.unexpected && check.asserted;
+  if (!check.asserted && judgement.verdict == Verdict::differs) judgement.verdict = Verdict::reported;
   return judgement;
 }
 

@@ -14,6 +14,7 @@ enum class Verdict {
   within_band,       // beyond the tolerance, but inside the reference's own uncertainty
   differs,           // beyond both
   expected_failure,  // differs, as declared, and no further than declared
+  reported,          // differs, in a row that is not asserted
   not_run,           // no run, no record, or it did not reach its end
   stale,             // the run or record belongs to another state of its case
   error              // the run, a record or a file it takes is damaged

@@ -23,6 +23,7 @@ constexpr std::array table{
     Entry{"grain_front", "front_dense [m]", false},
     Entry{"solid_height", "y_solid_mean [m]", false},
     Entry{"interface_height", "interface_height [m]", false},
+    Entry{"base_pressure", "excess_base_pressure [Pa]", false},
     Entry{"base_pressure_peak", "excess_base_pressure [Pa]", false},
 };
 

@@ -38,6 +38,7 @@ Json json_result(const Result& result) {
   const Check& check = result.check;
   Json json{{"id", check.id},
             {"scene", check.run},
+            {"quantity", check.metric},
             {"metric", metric_label(check)},
             {"value", json_number(result.value)},
             {"unit", result.unit},
@@ -56,7 +57,8 @@ Json json_result(const Result& result) {
   json["distance"] = judged ? Json(result.judgement.distance) : Json(nullptr);
   if (check.expected_failure)
     json["expected_failure"] = {{"reason", check.expected_failure->reason},
-                                {"distance", check.expected_failure->distance}};
+                                {"distance", check.expected_failure->distance},
+                                {"cause", check.expected_failure->cause}};
   return json;
 }
 
@@ -142,6 +144,8 @@ std::string results_json(const Evaluation& evaluation, Frequency frequency, cons
   std::map<std::string, int> counts;
   for (const Result& result : evaluation.results) ++counts[std::string(name_of(result.judgement.verdict))];
   json["counts"] = counts;
+  json["causes"] = Json::object();
+  for (const Cause& cause : evaluation.causes) json["causes"][cause.key] = cause.text;
   json["runs"] = Json::array();
   for (const RunSummary& summary : evaluation.runs) json["runs"].push_back(json_run(summary));
   json["results"] = Json::array();

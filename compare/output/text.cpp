@@ -63,8 +63,8 @@ std::string terminal_table(const Evaluation& evaluation) {
     const Judgement& judgement = result.judgement;
     ++counts[name_of(judgement.verdict)];
     std::string verdict{name_of(judgement.verdict)};
-    if (judgement.verdict == Verdict::differs && result.value)
-      verdict += fmt::format(" by {:.3g}", judgement.deviation);
+    const bool off = judgement.verdict == Verdict::differs || judgement.verdict == Verdict::reported;
+    if (off && result.value) verdict += fmt::format(" by {:.3g}", judgement.deviation);
     if (!result.note.empty()) verdict += fmt::format(" ({})", result.note);
     text += fmt::format("{} {:<26} {:<26} {:>11} {:>11} {:<7} {:<24} {}\n", judgement.unexpected ? "!" : " ",
                         check.run, metric_label(check), short_number(result.value),

@@ -39,7 +39,7 @@ def base_pressure_plot(results, directory):
         if max(abs(limit) for limit in axis.get_ylim()) > 100 * WEIGHT:  # a shock beside what the weight of the grains can do
             axis.set_yscale("symlog", linthresh=WEIGHT)
         axis.set_ylabel("excess pressure [Pa]")
-        axis.legend()
+        style.legend(axis)
     axes[-1, 0].set_xlabel("t [s]")
     style.stamp(figure, results.facts(*shown))
     return [style.save(figure, directory, "base-pressure")]
@@ -83,6 +83,6 @@ def viscous_plot(results, directory):
     axes[0].set_ylabel("front [cm]")
     axes[1].set_ylabel("excess pressure [Pa]")
     axes[1].set_xlabel("t [s]")
-    axes[0].legend()
+    style.legend(axes[0])
     style.stamp(figure, results.facts(*shown))
     return [style.save(figure, directory, "viscous-collapse")]

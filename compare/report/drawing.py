@@ -66,6 +66,6 @@ def runs_with(results, runs, curve):
 def finish(figure, axis, xlabel, ylabel, results, runs, directory, name):
     axis.set_xlabel(xlabel)
     axis.set_ylabel(ylabel)
-    axis.legend()
+    style.legend(axis)
     style.stamp(figure, results.facts(*runs))
     return [style.save(figure, directory, name)]

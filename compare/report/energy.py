@@ -30,7 +30,7 @@ def energy_plot(results, run, directory):
         t, y = curves[name]
         left.plot(t / unit, 1e3 * y, color=colour, linestyle=line, label=label)
     left.set_ylabel("change of stored energy [mJ]")
-    left.legend()
+    style.legend(left)
     t = curves["open"][0]
     stacked = [np.maximum(1e3 * curves[name][1], 0.0) for name, _, _ in LOSSES]
     right.stackplot(t / unit, stacked, colors=[colour for _, _, colour in LOSSES], labels=[label for _, label, _ in LOSSES],

@@ -6,7 +6,7 @@ from report.beads import dambreak_beads_plot, water_entry_plot
 from report.collapse import base_pressure_plot, floating_run_out_plot, run_out_plot, viscous_plot
 from report.floating import centre_plot, floating_plot
 from report.parts import dam_break_plot, sedimentation_plot, sloshing_plot
-from report.snapshots import snapshot_plot
+from report.snapshots import plan_plot, snapshot_plot
 
 PLOTS = (run_out_plot, base_pressure_plot, floating_run_out_plot, centre_plot, floating_plot, dam_break_plot,
          sloshing_plot, sedimentation_plot, viscous_plot, water_entry_plot, dambreak_beads_plot)
@@ -31,14 +31,46 @@ CAPTIONS = {
 }
 
 
+# Quantity (a metric without its instant) -> the plots that show it, the first that was drawn is linked.
+SHOWN_IN = {
+    "run_out": ("run-out", "viscous-collapse"), "run_out_dense": ("run-out",), "run_out_quantile": ("run-out",),
+    "run_out_distance": ("run-out",), "base_pressure": ("base-pressure",), "base_pressure_peak": ("base-pressure",),
+    "base_pressure_sign": ("base-pressure", "viscous-collapse"), "base_pressure_distance": ("viscous-collapse",),
+    "grain_front_distance": ("viscous-collapse",), "run_out_exponent": ("floating-run-out",),
+    "immersed_share": ("floating-theory",), "immersed_share_cells": ("floating-theory",),
+    "immersed_share_free": ("floating-theory",), "period": ("floating-theory",), "decay_rate": ("centre-height",),
+    "decay_rate_late": ("centre-height",), "dam_break_distance": ("dam-break",), "solid_level_distance": ("sedimentation",),
+    "solid_height": ("water-entry",), "interface_height": ("water-entry",), "liquid_front": ("dambreak-beads",),
+    "grain_front": ("dambreak-beads",),
+}
+# Runs that those plots draw; of any other run its snapshots are linked.
+DRAWN = {
+    "run-out": ("s1", "s2"), "base-pressure": ("s1-loose", "s1-dense"), "dam-break": ("dam-break",), "sedimentation": ("sedimentation",),
+    "viscous-collapse": ("rondon-loose", "rondon-dense"), "water-entry": ("water-entry",), "dambreak-beads": ("dambreak-beads",),
+}
+
+
+def plot_of(run, case, quantity, plots):
+    """The plot of a run's quantity among those that were drawn; its fields where there is none; else nothing."""
+    for name in SHOWN_IN.get(quantity, ()):
+        if name in plots and case in DRAWN.get(name, (case,)):
+            return name
+    for name in (f"snapshots-{run}", f"snapshots-{case}"):
+        if name in plots:
+            return name
+    return None
+
+
 def caption(name):
     if name == "stability-map":
         return stability.CAPTION
     if name.startswith("energy-"):
         return energy.caption(name.removeprefix("energy-"))
+    if name.startswith("plan-"):
+        return f"{name.removeprefix('plan-')}: the 3D scene from above; colour: depth of the solid, of grains without pores."
     if name.startswith("snapshots-"):
         return (f"{name.removeprefix('snapshots-')}: solid fraction, colour of the grains and, where recorded, DEM-VOF; black line: "
-                "alpha = 0.5 (paper, Fig. 3).")
+                "alpha = 0.5 (paper, Fig. 3); of a 3D scene its mid-plane.")
     return CAPTIONS[name]
 
 
@@ -52,4 +84,5 @@ def draw_all(results, directory, kept=None):
         names += results.shown(lambda: energy.energy_plot(results, run, directory)) or []
     for run in results.curves:
         names += results.shown(lambda: snapshot_plot(results, run, directory)) or []
+        names += results.shown(lambda: plan_plot(results, run, directory)) or []
     return names

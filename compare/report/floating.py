@@ -66,7 +66,7 @@ def draw_shares(axis, results):
     draw_dem(axis, ratios, recorded)
     axis.set_xlabel(r"density ratio $\rho_s / \rho_l$ [-]")
     axis.set_ylabel(r"immersed share $h / H$ [-]")
-    axis.legend()
+    style.legend(axis)
     return shown
 
 
@@ -88,7 +88,7 @@ def draw_periods(axis, results):
     theory = {row["scene"]: row["reference"] for row in rows}
     recorded = [row for row in rows_of(results, "period", "DEM") if row["scene"] in theory]
     draw_dem(axis, [theory[row["scene"]] for row in recorded], recorded)
-    axis.legend()
+    style.legend(axis)
     return [row["scene"] for row in rows]
 
 

@@ -53,6 +53,13 @@ def write(path, kept):
     path.write_text(f'{{"rows":[\n{rows}\n],\n"costs":{{\n{costs}\n}}}}\n', encoding="utf-8")
 
 
+def due(kept, frequency):
+    """Rows that are kept and due at a frequency, by id; and the versions that made them."""
+    rows = {row["id"]: row for row in kept["rows"] if row["frequency"] in FREQUENCIES[:FREQUENCIES.index(frequency) + 1]}
+    made = sorted({(row["date"], f"{row['version']} ({row['commit']})") for row in rows.values() if row.get("commit")})
+    return rows, made[-1] if made else ("", "")
+
+
 def moved(kept, verified, relative=5e-3):
     """Rows of `verified` that no longer say what is kept of them, as (row, kept row): another verdict, or a value that moved by
     more than its last figure shown. Of what is not kept nothing is stated, so that nothing can be wrong."""

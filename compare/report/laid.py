@@ -20,7 +20,7 @@ def draw(directory):
         axis.set_xlabel(curve["abscissa"])
         axis.set_ylabel(f"{curve['name'].replace('_', ' ')} [{curve['unit']}]")
         axis.set_title(f"{laid['scene']}: rms apart {curve['rms']:.3g} {curve['unit']}", loc="left", fontsize=9)
-        axis.legend()
+        style.legend(axis)
         style.stamp(figure, [laid["run"]])
         names.append(style.save(figure, directory, f"lay-{curve['name'].replace('_', '-')}"))
     return names

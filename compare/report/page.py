@@ -5,19 +5,24 @@ from pathlib import Path
 
 import jinja2
 
-from report import figures, style
+from report import figures, kept_results, overview, style
 from report.film import film
+from report.overview import ORDER
 from report.results import changes
 
-ORDER = ["error", "differs", "stale", "not run", "expected failure", "within band", "agrees"]
+KEPT_MOVED = 5e-3  # by which a kept value must have moved to be another: more than its last figure shown
 
-
-def render(results, plots, sections=()):
-    """The page as text. `plots` are names in results.directory / "plots"; `sections` those of others (sections.py)."""
+def render(results, plots, sections=(), kept=None):
+    """The page as text. `plots` are names in results.directory / "plots"; `sections` those of others (sections.py); `kept` what
+    README and docs state (kept_results.read())."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["number"] = number
-    environment.filters["slug"] = lambda text: text.replace(" ", "-")
+    environment.filters["plot_word"] = plot_word
+    environment.filters["rounded"] = overview.short
+    environment.filters["words"] = lambda name: name.replace("_", " ")
+    environment.filters["slug"] = lambda text: text.replace(" ", "-").replace("/", "-")
+    states, (kept_date, kept_version) = kept_results.due(kept or {"rows": []}, results.frequency)
     moving = films(results)  # first: it adds to what is damaged
     counts = {verdict: sum(row["verdict"] == verdict for row in results.rows) for verdict in ORDER}
     return environment.get_template("page.html").render(
@@ -25,17 +30,26 @@ def render(results, plots, sections=()):
         frequency=results.frequency,
         previous_date=results.previous_date,
         unexpected=[row for row in results.rows if row["unexpected"]],
+        glance=overview.at_a_glance(results, plots),
         known=[row for row in results.rows if row["verdict"] == "expected failure"],
+        causes=overview.by_cause(results),
+        scenes=overview.by_scene(results),
+        kept_date=kept_date, kept_version=kept_version,
+        kept_changes=changes(results, relative=KEPT_MOVED, since=states) if states else [],
         idle=[row for row in results.rows if row["verdict"] in ("not run", "stale") and not row["unexpected"]],
         changes=changes(results),
         counts=[(verdict, count) for verdict, count in counts.items() if count],
-        rows=sorted(results.rows, key=lambda row: (not row["unexpected"], ORDER.index(row["verdict"]))),
+        rows=results.rows,
         runs=[run_facts(run) for run in results.runs.values()],
         films=moving,
         damaged=results.damaged,
         sections=sections,
         plots=[{"name": name, "caption": figures.caption(name),
                 "data": encoded(results.directory / "plots" / f"{name}.png")} for name in plots])
+
+
+def plot_word(name):
+    return "fields" if name.startswith("snapshots-") else "plot"
 
 
 def films(results):
@@ -57,7 +71,7 @@ def run_facts(run):
     simulated = numbers.get("simulated_time")
     cost = numbers.get("core_seconds")
     return {
-        "id": run["id"], "state": run["state"], "reason": run["reason"],
+        "id": run["id"], "case": run.get("case", run["id"]), "state": run["state"], "reason": run["reason"],
         "set": ", ".join(run["set"]), "cells": numbers.get("cells"), "steps": numbers.get("steps"), "core_seconds": cost,
         "per_second": cost / simulated if cost and simulated else None,
         "speed": numbers.get("cell_steps_per_second"),

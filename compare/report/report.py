@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from report import charts, figures, page, results, sections  # noqa: E402
+from report import charts, figures, kept_results, page, results, sections  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -36,7 +36,8 @@ def write(loaded, options):
         directories["stability"] = options.kept / "stability"
     others = sections.read_all(out, directories)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
-    (options.verify / "report.html").write_text(page.render(loaded, plots, others), encoding="utf-8")
+    kept = kept_results.read(options.kept / "verify/results.json")
+    (options.verify / "report.html").write_text(page.render(loaded, plots, others, kept), encoding="utf-8")
     for sentence in loaded.damaged:
         print(f"report: {sentence}", file=sys.stderr)
     return 1 if loaded.damaged else 0

@@ -45,6 +45,7 @@ class Results:
     records: dict = field(default_factory=dict)  # scene -> variant -> the same
     peers: dict = field(default_factory=dict)  # run -> stock program -> the same
     damaged: list = field(default_factory=list)  # what could not be shown, and why: one sentence each
+    causes: dict = field(default_factory=dict)  # key -> what expected failures have in common
     cases: Path = Path("cases")  # directory of the case files, with published/
 
     def row(self, scene, metric):
@@ -96,6 +97,7 @@ def load(directory, cases=Path("cases")):
     except OF_READING as error:
         raise Damaged(directory / "results.json", error) from error
     loaded.cases = cases
+    loaded.causes = results.get("causes", {})
     curves = read_json(directory / "curves.json", "runs", "records")
     loaded.curves, loaded.records, loaded.peers = curves["runs"], curves["records"], curves.get("peers", {})
     before = directory / "results.previous.json"
@@ -124,16 +126,18 @@ def read_previous(path):
         raise Damaged(path, error) from error
 
 
-def changes(results, relative=1e-3):
-    """Rows whose verdict changed, or whose value moved by more than `relative`, since the last comparison.
+def changes(results, relative=1e-3, since=None):
+    """Rows whose verdict changed, or whose value moved by more than `relative`, since the last comparison, or since the rows
+    `since` (by id).
 
     Cost is left out: it moves with the load of the machine.
     """
     found = []
+    previous = results.previous if since is None else since
     for row in results.rows:
-        before = results.previous.get(row["id"])
+        before = previous.get(row["id"])
         if before is None:
-            if results.previous:
+            if previous and (since is None or row["unit"] != "core-s"):
                 found.append((row, None, "new"))
             continue
         if before["verdict"] != row["verdict"]:
@@ -141,7 +145,7 @@ def changes(results, relative=1e-3):
         elif moved(before["value"], row["value"], relative) and row["unit"] != "core-s" and matters(row):
             found.append((row, before, f"{before['value']:.6g} → {row['value']:.6g}"))
     now = {row["id"] for row in results.rows}
-    found += [(before, before, "gone") for key, before in results.previous.items() if key not in now]
+    found += [(before, before, "gone") for key, before in previous.items() if key not in now]
     return found
 
 
@@ -157,7 +161,18 @@ def matters(row):
 
 
 def snapshots(run):
-    """Yields (time, f_s, alpha, phi) as 2D arrays (y, x), the mean across the tank, for each instant of a run."""
+    """Yields (time, f_s, alpha, phi) as 2D arrays (y, x), of a 3D scene its mid-plane and of the slice of a 2D one the mean across it, for each instant of a run."""
+    for time, fields in instants(run):
+        yield time, *(None if field is None else across(field, run["scene"]["dimensions"]) for field in fields)
+
+
+def across(field, dimensions):
+    """(y, x) of a field (z, y, x)."""
+    return field[field.shape[0] // 2] if dimensions == 3 else field.mean(axis=0)
+
+
+def instants(run):
+    """Yields (time, (f_s, alpha, phi)) as arrays (z, y, x), None for a field that was not written."""
     path = Path(run["directory"]) / "fields.h5"
     if not path.exists():
         return
@@ -165,7 +180,7 @@ def snapshots(run):
         with h5py.File(path, "r") as file:
             groups = [file[name] for name in file if "f_s" in file[name]]
             for group in sorted(groups, key=lambda g: float(g.attrs["time"])):
-                flat = [np.asarray(group[name]).mean(axis=0) if name in group else None for name in ("f_s", "alpha", "phi")]
-                yield float(group.attrs["time"]), *flat
+                yield float(group.attrs["time"]), tuple(np.asarray(group[name]) if name in group else None
+                                                        for name in ("f_s", "alpha", "phi"))
     except OF_READING as error:
         raise Damaged(path, error) from error

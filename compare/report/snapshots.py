@@ -3,7 +3,7 @@
 import numpy as np
 
 from report import style
-from report.results import snapshots
+from report.results import instants, snapshots
 from report.style import plt
 
 MOST_SHOTS = 8
@@ -18,7 +18,8 @@ def snapshot_plot(results, run, directory):
     shots = list(snapshots(entry))
     if not shots:
         return []
-    variant, recorded = recorded_shots(results, run, [shot[0] for shot in shots], scene)
+    case = results.runs.get(run, {}).get("case", run)
+    variant, recorded = recorded_shots(results, case, [shot[0] for shot in shots], scene)
     if sum(shot is not None for shot in recorded) >= LEAST_COMMON:
         shots, recorded = zip(*[pair for pair in zip(shots, recorded) if pair[1]])
     else:
@@ -35,9 +36,35 @@ def snapshot_plot(results, run, directory):
     return [f"snapshots-{run}"]
 
 
-def recorded_shots(results, run, times, scene):
-    """Name of the first variant with fields, and its instants at `times`, None where it has none."""
-    for variant, entry in sorted(results.records.get(run, {}).items()):
+def plan_plot(results, run, directory):
+    """A 3D scene from above: how deep the solid lies, of grains without pores, at the output times."""
+    entry = results.curves[run]
+    scene = entry["scene"]
+    if scene["dimensions"] != 3:
+        return []
+    shots = [(time, fields[0].sum(axis=1) * 1e3 * scene["spacing"][1]) for time, fields in instants(entry)]
+    if not shots:
+        return []
+    kept = np.unique(np.linspace(0, len(shots) - 1, MOST_SHOTS).round().astype(int))
+    shots = [shots[i] for i in kept]
+    length, depth = 1e3 * scene["tank"][0], 1e3 * scene["tank"][2]
+    figure, axes = plt.subplots(len(shots), 1, squeeze=False, sharex=True, sharey=True,
+                                figsize=(4.4, (3.4 * depth / length + 0.28) * len(shots) + 0.9))
+    deepest = max(solid.max() for _, solid in shots)
+    for axis, (time, solid) in zip(axes[:, 0], shots):
+        drawn = axis.imshow(solid, origin="lower", extent=(0, length, 0, depth), vmin=0, vmax=deepest, cmap="YlOrBr")
+        axis.set_title(label_of_time(time, scene), loc="left", fontsize=8)
+        axis.grid(False)
+    axes[-1, 0].set_xlabel("x [mm]")
+    figure.supylabel("z [mm]", fontsize=9)
+    figure.colorbar(drawn, ax=axes[:, 0], label="depth of solid [mm]", location="bottom", shrink=0.8, aspect=30, pad=0.01)
+    style.stamp(figure, results.facts(run))
+    return [style.save(figure, directory, f"plan-{run}")]
+
+
+def recorded_shots(results, case, times, scene):
+    """Name of the first variant of a case with fields, and its instants at `times`, None where it has none."""
+    for variant, entry in sorted(results.records.get(case, {}).items()):
         found = list(snapshots(entry))
         near = [next((shot for shot in found if abs(shot[0] - time) < 0.02 * scene["time_unit"]), None) for time in times]
         if any(near):

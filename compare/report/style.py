@@ -28,6 +28,16 @@ plt.rcParams.update({
 })
 
 
+def legend(axis, columns=None):
+    """Above the axes, off the data; in as many columns as fit, at most three, or as given."""
+    handles, labels = axis.get_legend_handles_labels()
+    if handles:
+        longest = max(len(label) for label in labels)
+        fitting = max(1, int(11 * axis.figure.get_figwidth()) // (longest + 6))
+        axis.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.0, 1.01), borderaxespad=0.0,
+                    ncols=columns or min(fitting, 3, len(handles)))
+
+
 def stamp(figure, runs):
     """One line of small print: version, case hashes and host of the runs a plot shows."""
     facts = [run for run in runs if run.get("case_hash")]

@@ -26,7 +26,11 @@ def rows_of_a_comparison():
             row_of(id="b", scene="s1", metric="core_seconds", unit="core-s", value=2.2, reference=3, verdict="agrees",
                      unexpected=False, distance=0.0, deviation=-0.8),
             row_of(id="c", scene="s1", metric="late <creep>", verdict="expected failure", unexpected=False,
-                     expected_failure={"reason": "no arrest & thin layers", "distance": 0.5})]
+                     expected_failure={"reason": "no arrest & thin layers", "distance": 0.5, "cause": "toe"}),
+            row_of(id="d", scene="s1", metric="slope_drift", verdict="not run", unexpected=False, reference=None, value=None,
+                     deviation=None, distance=None),
+            row_of(id="e", scene="s1-other", metric="run_out@10", value=1.9, verdict="reported only", unexpected=False, asserted=False,
+                     distance=0.35, deviation=0.4, tolerance="0.05 [-], reported only")]
     for ratio in (0.2, 0.4, 0.6, 0.8):
         name = f"float-full-r{10 * ratio:02.0f}"
         rows.append(row_of(id=f"{name}.share", scene=name, metric="immersed_share", value=ratio + 0.001, reference=ratio,
@@ -83,12 +87,15 @@ def make_comparison(root):
                  "solid_level_0.25": (t, 0.05 - t / 200), "solid_level_0.55": (t, t / 200)}
         curves[name] = {"scene": scene, "directory": str(root / "runs" / name),
                         "curves": {key: {"x": list(x), "y": list(y)} for key, (x, y) in given.items()}}
-    records = {"s1": {f"seed{seed}": curves["s1"] for seed in (1, 2)}, "s2": {"seed1": curves["s2"]}}
+    for seed, cost in ((1, 200.0), (2, 240.0)):
+        (root / f"records/seed{seed}").mkdir(parents=True)
+        (root / f"records/seed{seed}/record.json").write_text(json.dumps({"core_seconds": cost}))
+    records = {"s1": {f"seed{seed}": curves["s1"] | {"directory": str(root / f"records/seed{seed}")} for seed in (1, 2)}, "s2": {"seed1": curves["s2"]}}
     directory = root / "verify"
     directory.mkdir()
     (directory / "results.json").write_text(json.dumps({
-        "date": "2026-01-02T00:00:00Z", "frequency": "verify", "unexpected": 1, "counts": {},
-        "runs": [make_run(name) for name in names], "results": rows_of_a_comparison()}))
+        "date": "2026-01-02T00:00:00Z", "frequency": "verify", "unexpected": 1, "counts": {}, "causes": {"toe": "The toe is <thin>."},
+        "runs": [make_run(name) for name in names] + [make_run("s1-other") | {"case": "s1"}], "results": rows_of_a_comparison()}))
     (directory / "curves.json").write_text(json.dumps({"runs": curves, "records": records}))
     return directory
 

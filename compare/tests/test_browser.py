@@ -10,7 +10,7 @@ browser = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(browser)
 
 ENTER, SPACE = "\ue007", " "
-FIRST_TABLE = "document.querySelectorAll('table.sortable')[0]"
+FIRST_TABLE = "document.querySelector('#scene-s1 table')"  # where something differs, so that it is open
 
 
 @pytest.fixture(scope="module")
@@ -49,11 +49,11 @@ def test_every_image_is_there(page, reported):
 
 
 def test_table_sorts_by_mouse_both_ways(page):
-    page.click("table.sortable th:nth-child(1) button")
+    page.click("#scene-s1 th:nth-child(1) button")
     assert sort_state(page, 0) == "ascending"
     names = column(page, 0)
     assert names == sorted(names)
-    page.click("table.sortable th:nth-child(1) button")
+    page.click("#scene-s1 th:nth-child(1) button")
     assert sort_state(page, 0) == "descending"
     assert column(page, 0) == sorted(names, reverse=True)
 
@@ -70,7 +70,7 @@ def test_table_sorts_by_keyboard_and_numbers_by_value(page):
 
 def test_empty_values_stay_last(page):
     for _ in range(2):
-        page.click("table.sortable th:nth-child(4) button")
+        page.click("#scene-s1 th:nth-child(4) button")
         values = column(page, 3)
         assert "" in values and values.index("") == len([value for value in values if value])
 
@@ -88,8 +88,59 @@ def test_light_and_dark(page):
     assert brightness(dark[0]) > 300 + brightness(dark[1])
 
 
-def test_fits_a_phone(page):
+SCROLLS = """return [...document.querySelectorAll('.scroll')].filter(box => box.querySelector('.stack') && box.offsetParent
+             && box.scrollWidth > box.clientWidth).length"""
+
+
+@pytest.fixture
+def phone(page):
     page.devtools("Emulation.setDeviceMetricsOverride", width=360, height=740, deviceScaleFactor=2, mobile=True)
-    wide = page.run("return document.documentElement.scrollWidth")
-    assert wide <= 360  # tables scroll inside their own boxes
+    yield page
     page.devtools("Emulation.clearDeviceMetricsOverride")
+
+
+def test_fits_a_phone(phone):
+    assert phone.run("return document.documentElement.scrollWidth") <= 360  # what is wider scrolls inside its own box
+    assert phone.run(SCROLLS) == 0  # the tables of checks are cards there
+    assert phone.run(f"return getComputedStyle({FIRST_TABLE}.tBodies[0].rows[0].cells[1], '::before').content") == '"metric"'
+
+
+def test_tables_of_checks_fit_the_window(page):
+    assert page.run("return document.documentElement.scrollWidth <= innerWidth")
+    assert page.run(SCROLLS) == 0
+
+
+def test_what_agrees_is_closed_until_a_link_points_into_it(page):
+    state = "return document.getElementById('scene-float-full-r02').open"
+    assert not page.run(state) and page.run("return document.getElementById('scene-s1').open")
+    page.run("document.querySelector('a[href=\"#scene-float-full-r02\"]').click()")
+    assert page.run("return new Promise(done => setTimeout(() => done(document.getElementById('scene-float-full-r02').open), 100))")
+    page.run("location.hash = ''; document.getElementById('scene-float-full-r02').open = false")
+
+
+def test_every_link_has_its_place(page):
+    assert page.run("""return [...document.querySelectorAll('a[href^="#"]')].map(a => a.getAttribute('href').slice(1))
+                       .filter(id => !document.getElementById(id))""") == []
+
+
+def test_a_row_leads_to_its_plot_its_cause_and_its_case(page):
+    links = page.run("""return [...document.querySelectorAll('#table-glance tbody tr')].filter(row => row.cells[0].textContent === 's1')
+                        .map(row => [...row.cells[7].querySelectorAll('a')].map(a => a.getAttribute('href')))""")
+    assert ["#run-out", "#run-s1"] in links
+    assert any("#cause-toe" in row for row in links)
+
+
+def test_the_filter_leaves_what_holds_its_words(page):
+    def rows():
+        return page.run("return [...document.querySelectorAll('#table-glance tbody tr')].filter(row => !row.hidden).length")
+
+    def write(text):
+        page.run(f"const box = document.getElementById('filter'); box.value = '{text}'; box.dispatchEvent(new Event('input'))")
+
+    everything = rows()
+    write("float-full-r02 share")
+    assert 0 < rows() < everything
+    assert page.run("return document.getElementById('scene-float-full-r02').open && document.getElementById('scene-s1').hidden")
+    write("")
+    assert rows() == everything
+    assert not page.run("return document.getElementById('scene-float-full-r02').open")

@@ -4,6 +4,7 @@ import json
 import re
 from html.parser import HTMLParser
 
+import h5py
 import numpy as np
 import pytest
 
@@ -77,7 +78,8 @@ def test_page_fetches_nothing(reported):
 
 def test_page_names_failures_first_and_escapes_text(reported):
     text = (reported / "report.html").read_text()
-    assert text.index("1 unexpected") < text.index("What changed") < text.index('id="checks"')
+    places = [text.index(part) for part in ("<strong>1 unexpected", 'id="glance"', 'id="changed"', 'id="fails"', 'id="checks"')]
+    assert places == sorted(places)
     assert "late &lt;creep&gt;" in text and "late <creep>" not in text
     assert "no arrest &amp; thin layers" in text
     assert "no record of" in text
@@ -266,3 +268,48 @@ def test_an_error_is_shown_as_one(verify_directory, make_row):
     assert report_of(verify_directory) == 0
     text = (verify_directory / "report.html").read_text()
     assert 'class="verdict error"' in text and "60 whole rows" in text
+
+
+def in_three_dimensions(verify_directory, tmp_path):
+    """Results whose s1 is 3D: a bed that is as deep as z, in cells 0.01 m high."""
+    loaded = results.load(verify_directory)
+    loaded.curves = {"s1": loaded.curves["s1"]}
+    entry = loaded.curves["s1"]
+    entry["directory"] = str(tmp_path / "threed")
+    entry["scene"] |= {"dimensions": 3, "tank": [0.12, 0.08, 0.05], "cells": [12, 8, 5]}
+    solid = np.zeros((5, 8, 12))
+    for z in range(5):
+        solid[z, :z + 1, :6] = 0.1 * (z + 1)
+    (tmp_path / "threed").mkdir()
+    with h5py.File(tmp_path / "threed/fields.h5", "w") as file:
+        group = file.create_group("t0000")
+        group.attrs["time"] = 0.0
+        group["f_s"], group["alpha"] = solid, np.ones_like(solid)
+    return loaded, solid
+
+
+def test_a_3d_scene_is_shown_in_its_mid_plane_and_from_above(verify_directory, tmp_path):
+    loaded, solid = in_three_dimensions(verify_directory, tmp_path)
+    (_, f_s, _, _), = results.snapshots(loaded.curves["s1"])
+    assert np.array_equal(f_s, solid[2])
+    assert snapshots.plan_plot(loaded, "s1", tmp_path / "plots") == ["plan-s1"]
+    assert "from above" in figures.caption("plan-s1") and "mid-plane" in figures.caption("snapshots-s1")
+    loaded.curves["s1"]["scene"]["dimensions"] = 2
+    (_, f_s, _, _), = results.snapshots(loaded.curves["s1"])
+    assert np.allclose(f_s, solid.mean(axis=0))
+    assert snapshots.plan_plot(loaded, "s1", tmp_path / "plots") == []
+
+
+def test_a_run_with_another_preset_has_the_record_of_its_case_beside_it(verify_directory):
+    loaded = results.load(verify_directory)
+    loaded.runs["s1-other"]["case"] = "s1"
+    assert loaded.records["s1"] and "s1-other" not in loaded.records
+    loaded.records["s1"]["seed1"]["directory"] = loaded.curves["s1"]["directory"]
+    drawn = []
+    keep, snapshots.draw = snapshots.draw, lambda columns, *_: drawn.extend(label for label, _, _ in columns)
+    try:
+        loaded.curves["s1-other"] = loaded.curves["s1"]
+        snapshots.snapshot_plot(loaded, "s1-other", verify_directory)
+    finally:
+        snapshots.draw = keep
+    assert any("DEM-VOF (seed1)" in label for label in drawn)

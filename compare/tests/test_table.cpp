@@ -317,6 +317,44 @@ TEST(Table, ACaseMayBeInAFolder) {
   EXPECT_EQ(found->case_name, "invariance/column");
 }
 
+// A table with one run and a check whose expected failure holds `keys`.
+std::string with_failure(const std::string& causes, const std::string& keys) {
+  return causes + R"toml(
+[[run]]
+id = "s1"
+[[check]]
+run = "s1"
+metric = "run_out"
+at = 2
+reference = { kind = "DEM" }
+tolerance = { relative = 0.1 }
+frequency = "verify"
+expected_failure = { )toml" +
+         keys + "reason = \"w\", distance = 1 }\n";
+}
+
+TEST(Table, EveryExpectedFailureNamesADeclaredCause) {
+  const std::string causes = "[[cause]]\nkey = \"toe\"\ntext = \"The toe.\"\n";
+  const Table table = parse_table(with_failure(causes, "cause = \"toe\", "), "checks.toml");
+  EXPECT_EQ(table.checks[0].expected_failure->cause, "toe");
+  EXPECT_EQ(table.causes[0].text, "The toe.");
+  EXPECT_NE(message_of(with_failure(causes, "")).find("cause"), std::string::npos);
+  EXPECT_NE(message_of(with_failure(causes, "cause = \"nose\", ")).find("there are: toe"), std::string::npos);
+  EXPECT_NE(message_of(with_failure(causes + causes, "cause = \"toe\", ")).find("given twice"),
+            std::string::npos);
+  const std::string idle = causes + "[[cause]]\nkey = \"idle\"\ntext = \"Nothing.\"\n";
+  EXPECT_NE(message_of(with_failure(idle, "cause = \"toe\", ")).find("no expected failure has this cause"),
+            std::string::npos);
+}
+
+TEST(Table, TheShippedCausesAreFew) {
+  const Table table = read_table(GRANVOF_CASES_DIR "/../compare/checks.toml");
+  EXPECT_GT(table.causes.size(), 5u);
+  EXPECT_LT(table.causes.size(), 20u);
+  for (const Check& check : table.checks)
+    EXPECT_FALSE(check.expected_failure && check.expected_failure->cause.empty()) << check.id;
+}
+
 TEST(Table, ADirectoryIsNoTable) {
   try {
     read_table(GRANVOF_CASES_DIR);

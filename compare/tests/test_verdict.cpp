@@ -45,7 +45,7 @@ TEST(Verdict, OneSidedBounds) {
 
 TEST(Verdict, ADeclaredFailureIsExpectedUntilItPassesOrWorsens) {
   Check known = within(0.1);
-  known.expected_failure = {"known cause", 0.3};
+  known.expected_failure = {"known cause", 0.3, ""};
   const Judgement as_declared = judge(1.3, 1.0, 0.0, known);
   EXPECT_EQ(as_declared.verdict, Verdict::expected_failure);
   EXPECT_FALSE(as_declared.unexpected);
@@ -61,8 +61,10 @@ TEST(Verdict, WhatIsOnlyReportedIsNeverUnexpected) {
   Check reported = within(0.1);
   reported.asserted = false;
   const Judgement off = judge(2.0, 1.0, 0.0, reported);
-  EXPECT_EQ(off.verdict, Verdict::differs);
+  EXPECT_EQ(off.verdict, Verdict::reported);
+  EXPECT_EQ(name_of(off.verdict), "reported only");
   EXPECT_FALSE(off.unexpected);
+  EXPECT_EQ(judge(1.05, 1.0, 0.0, reported).verdict, Verdict::agrees);
 }
 
 }  // namespace

@@ -11,11 +11,15 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "solver/output/atomic_file.hpp"
 #include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/program/start_picture.hpp"
+#include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
+#include "solver/scene/cost_estimate.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/restate.hpp"
@@ -31,6 +35,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   granvof::RunOptions run;
   granvof::UnitFactors factors;
+  std::string picture;
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -69,9 +74,14 @@ int run(Arguments& arguments) {
 
 int check(const Arguments& arguments) {
   const granvof::Scene scene = load(arguments);
+  if (!arguments.picture.empty())
+    granvof::write_file_atomically(arguments.picture, granvof::picture_of_start(scene));
   const auto& cells = scene.grid.cells;
-  fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n\n{}", scene.name, cells[0], cells[1], cells[2],
-             scene.times.end, scene.hash, scene.resolved);
+  const granvof::CostEstimate cost = granvof::estimate_cost(scene);
+  fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n", scene.name, cells[0], cells[1], cells[2],
+             scene.times.end, scene.hash);
+  fmt::print("# estimated: {:.2g} steps, {:.2g} s on one core, {:.2g} MB\n\n{}", cost.steps,
+             cost.core_seconds, 1e-6 * granvof::memory_demand(scene), scene.resolved);
   return 0;
 }
 
@@ -123,6 +133,10 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& check_command =
       *app.add_subcommand("check", "Check a case and print it in full, defaults filled in");
   add_case(check_command, arguments);
+  check_command
+      .add_option("--picture", arguments.picture,
+                  "Draw the start: tank, liquid, bed, gate, sides, grid (SVG)")
+      ->type_name("FILE");
   CLI::App& restate_command = *app.add_subcommand(
       "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
   add_case(restate_command, arguments);

@@ -76,6 +76,51 @@ TEST_F(Program, ChecksACase) {
   EXPECT_NE(outcome.out.find("\nend = 2\n"), std::string::npos);
 }
 
+TEST_F(Program, EstimatesWhatARunTakes) {
+  const std::string out = granvof("check " + shipped("s1")).out;
+  double steps = 0.0, seconds = 0.0, megabytes = 0.0;
+  const auto at = out.find("# estimated:");
+  ASSERT_NE(at, std::string::npos) << out.substr(0, 300);
+  ASSERT_EQ(std::sscanf(out.c_str() + at, "# estimated: %lf steps, %lf s on one core, %lf MB", &steps,
+                        &seconds, &megabytes),
+            3);
+  EXPECT_NEAR(steps, 241.0, 120.0);  // what make verify takes
+  EXPECT_GT(seconds, 0.5);
+  EXPECT_LT(seconds, 20.0);
+  EXPECT_GT(megabytes, 10.0);
+}
+
+TEST_F(Program, DrawsTheStart) {
+  const granvof::test::TemporaryDirectory pictures;
+  const std::filesystem::path file = pictures.path() / "start.svg";
+  const auto drawn = [&](const std::string& arguments) {
+    EXPECT_EQ(granvof("check " + arguments + " --picture " + file.string()).code, 0);
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const auto count = [](const std::string& text, const std::string& part) {
+    int found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const std::string s1 = drawn(shipped("s1") + " --set grid.dx=0.01");
+  // 720 px are 0.4 m, from 60 px; the tank is 0.12 m high, so that its floor is at 276 px.
+  EXPECT_NE(s1.find("class=\"liquid\" x=\"60.00\" y=\"150.00\" width=\"720.00\" height=\"126.00\""),
+            std::string::npos)
+      << s1;
+  EXPECT_NE(s1.find("class=\"bed\" points=\"60.00,276.00 235.50,276.00 235.50,187.80 60.00,187.80\""),
+            std::string::npos)
+      << s1;
+  EXPECT_NE(s1.find("class=\"gate\" x1=\"235.50\""), std::string::npos) << s1;
+  EXPECT_EQ(count(s1, "class=\"grid\""), 39 + 11);
+  EXPECT_EQ(count(s1, "class=\"side\""), 4);
+  EXPECT_EQ(count(s1, "stroke-dasharray"), 1);  // the open top
+  EXPECT_EQ(count(drawn(shipped("s1") + " --set grid.dx=0.00125"), "class=\"grid\""), 0);
+  const std::string dam = drawn(shipped("dam-break"));
+  EXPECT_EQ(count(dam, "class=\"bed\"") + count(dam, "class=\"gate\""), 0);
+  expect_refused("check " + shipped("s1") + " --picture /nonexistent/start.svg", "/nonexistent");
+}
+
 TEST_F(Program, RestatesACase) {
   const Outcome outcome = granvof("restate " + shipped("s1") + " --mass 2 --length 0.25 --time 0.5");
   EXPECT_EQ(outcome.code, 0);

@@ -1,0 +1,29 @@
+# `make install` and `make package`: the two programs, the Python module, the shipped cases, what advise and ablate read,
+# man pages and completion. Both are made of the programs' own --help when they are installed.
+include(GNUInstallDirs)
+
+set(share ${CMAKE_INSTALL_DATADIR}/granvof)
+install(TARGETS granvof_program granvof-compare RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES solver/python/granvof.py DESTINATION lib/python3/dist-packages)
+install(DIRECTORY cases DESTINATION ${share})
+install(FILES compare/checks.toml compare/study.toml DESTINATION ${share}/compare)
+install(FILES compare/kept/verify/results.json DESTINATION ${share}/compare/kept/verify)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+find_program(GRANVOF_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+set(manuals ${CMAKE_BINARY_DIR}/manuals)
+install(CODE "
+  execute_process(COMMAND ${GRANVOF_PYTHON} ${CMAKE_SOURCE_DIR}/ci/manuals
+    --out ${manuals} $<TARGET_FILE:granvof_program> $<TARGET_FILE:granvof-compare> COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${manuals}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(DIRECTORY ${manuals}/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "the authors of granvof")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-h5py, python3-xarray")
+set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
+include(CPack)

@@ -1,0 +1,104 @@
+"""Film, plots and a page of any run directory: `compare/show DIR...`. Needs no table of checks and no other run."""
+
+import base64
+import math
+import tomllib
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+import granvof
+from report import snapshots, style
+from report.film import film
+from report.results import Results
+from report.style import plt
+
+# (title, unit, columns of series.csv, factor): a plot each, of the columns that there are
+PLOTS = (("fronts", "mm", ("front_dense", "front_dilute", "front_quantile", "liquid_front"), 1e3),
+         ("heights", "mm", ("deposit_height", "y_solid_mean", "interface_height", "bed_top"), 1e3),
+         ("pressure at the base", "Pa", ("p_base",), 1.0),
+         ("largest speeds", "m/s", ("u_s_max", "u_liquid_max"), 1.0))
+FACTS = ("version", "start_date", "cells", "steps", "simulated_time", "core_seconds", "solid_volume_error", "liquid_volume_error",
+         "solid_fraction_max")
+
+
+def scene_of(facts):
+    """What the pictures need of a scene, from the resolved case that a run.json holds. Raises granvof.NotARun."""
+    try:
+        case = tomllib.loads(facts["resolved_case"])
+        tank, bed = case["tank"], case.get("bed", {})
+        scaled = case["time"].get("unit") == "column"
+        return {"title": facts["title"], "tank": [*tank["size"], tank.get("depth", 1.0)][:3], "dimensions": case["scene"]["dimensions"],
+                "cells": facts["grid"]["cells"], "spacing": facts["grid"]["spacing"],
+                "time_unit": math.sqrt(bed["height"] / tank["gravity"]) if scaled else 1.0}
+    except (KeyError, TypeError, ValueError) as error:
+        raise granvof.NotARun(f"run.json: {type(error).__name__}: {error}") from error
+
+
+def series_plots(run, directory):
+    """Names and captions of the plots of series.csv."""
+    made = []
+    time = np.asarray(run.series.index if granvof.pandas else run.series["time"])
+    for title, unit, columns, factor in PLOTS:
+        shown = [(name, factor * np.asarray(run.series[name])) for name in columns if name in run.series]
+        shown = [(name, values) for name, values in shown if np.isfinite(values).any()]
+        if not shown:
+            continue
+        figure, axis = plt.subplots(figsize=(6.4, 3.6))
+        for (name, values), colour, line in zip(shown, style.CYCLE, style.LINES):
+            axis.plot(time, values, line, color=colour, label=name)
+        axis.set_xlabel("t [s]")
+        axis.set_ylabel(f"{title} [{unit}]")
+        style.legend(axis)
+        name = "series-" + title.replace(" ", "-")
+        made.append((style.save(figure, directory, name), f"{title} against time: {', '.join(name for name, _ in shown)}."))
+    return made
+
+
+def show(directory):
+    """Writes DIR/report/ (plots, film, report.html) and gives back the page. Raises granvof.NotARun."""
+    run = granvof.load(directory, fields=False)
+    if not run.facts:
+        raise granvof.NotARun(f"{run.directory}: there is no run.json")
+    scene, name = scene_of(run.facts), run.facts.get("scene", run.directory.name)
+    out = run.directory / "report"
+    entry = {"scene": scene, "directory": str(run.directory)}
+    results = Results(out, "", "verify", [], {name: {"id": name, "case": name, "case_hash": run.facts.get("case_hash", ""),
+                                                      "version": run.facts.get("version", ""), "commit": run.facts.get("git_commit", ""),
+                                                      "host": (run.facts.get("host") or {}).get("cpu_model", "")
+                                                      if isinstance(run.facts.get("host"), dict) else ""}})
+    results.curves = {name: entry}
+    plots = series_plots(run, out)
+    plane = "mid-plane of the tank" if scene["dimensions"] == 3 else "the slice"
+    for drawn in snapshots.snapshot_plot(results, name, out):
+        plots.append((drawn, f"Solid fraction and colour of the grains, {plane}; black line: alpha = 0.5."))
+    for drawn in snapshots.plan_plot(results, name, out):
+        plots.append((drawn, "From above: depth of the solid, of grains without pores."))
+    figures = [{"data": encoded(out / f"{plot}.png"), "caption": caption} for plot, caption in plots]
+    moving = film(entry)
+    if moving:
+        (out / "film.apng").write_bytes(moving)
+        figures.insert(0, {"data": base64.b64encode(moving).decode("ascii"),
+                           "caption": f"Film, {plane}; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, undefined=jinja2.StrictUndefined)
+    page = out / "report.html"
+    page.write_text(environment.get_template("run_page.html").render(
+        name=name, title=scene["title"], figures=figures, resolved=run.facts["resolved_case"], warnings=warnings_of(run.facts),
+        facts=[(what.replace("_", " "), shortened(run.facts[what])) for what in FACTS if run.facts.get(what) is not None]), encoding="utf-8")
+    return page
+
+
+def warnings_of(facts):
+    ended = facts.get("exit", {})
+    said = [] if ended.get("state") == "finished" else [f"The run did not finish: {ended.get('reason') or ended.get('state', 'unknown')}"]
+    return said + [warning if isinstance(warning, str) else ", ".join(f"{key}: {value}" for key, value in warning.items())
+                   for warning in facts.get("warnings", [])]
+
+
+def shortened(value):
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def encoded(path):
+    return base64.b64encode(path.read_bytes()).decode("ascii")

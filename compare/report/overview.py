@@ -1,0 +1,108 @@
+"""What the page says first: one line a scene and quantity, what fails by its cause, and the rest by scene."""
+
+import json
+from pathlib import Path
+
+from report import figures
+
+# The worst first.
+ORDER = ["error", "differs", "stale", "not run", "expected failure", "within band", "reported only", "agrees"]
+GOOD = ("agrees", "within band", "reported only")
+AGAINST = ("DEM", "published", "theory")
+
+
+def of_interest(row):
+    """Whether a row tells how right a quantity is: not whether something is conserved, bounded, or as it was before."""
+    if row["reference_kind"] in ("DEM", "published"):
+        return True
+    bounded = row["tolerance"].startswith(("at most", "at least"))
+    return row["reference_kind"] == "theory" and not bounded and bool(row["reference"])
+
+
+def quantity_of(row):
+    return row.get("quantity") or row["metric"].split("@")[0]
+
+
+def error_of(rows):
+    """The range of the errors of rows, relative in %, or in the unit where a reference is 0; nothing where none was judged."""
+    judged = [row for row in rows if row["value"] is not None and row["reference"] is not None]
+    if not judged:
+        return None
+    if any(row["reference"] == 0 for row in judged):
+        return f"{max(abs(row['value'] - row['reference']) for row in judged):.2g} {judged[0]['unit']}".removesuffix(" -")
+    errors = [100 * abs(row["value"] / row["reference"] - 1) for row in judged]
+    low, high = short(min(errors)), short(max(errors))
+    return f"{high} %" if low == high else f"{low} to {high} %"
+
+
+def short(value):
+    """Two figures, without an exponent."""
+    return f"{float(f'{value:.2g}'):.6g}"
+
+
+def worst(rows):
+    return min((row["verdict"] for row in rows), key=ORDER.index)
+
+
+def at_a_glance(results, plots):
+    """One entry a run and quantity that something else than this code is a reference of."""
+    groups = {}
+    for row in results.rows:
+        if of_interest(row):
+            groups.setdefault((row["scene"], quantity_of(row)), []).append(row)
+    lines = []
+    for (run, quantity), rows in groups.items():
+        case = results.runs.get(run, {}).get("case", run)
+        lines.append({
+            "run": run, "case": case, "quantity": quantity, "errors": {}, "verdict": worst(rows),
+            "agree": sum(row["verdict"] in ("agrees", "within band") for row in rows), "rows": len(rows),
+            "unexpected": any(row["unexpected"] for row in rows), "cost_ratio": cost_ratio(results, run, case),
+            "plot": figures.plot_of(run, case, quantity, plots),
+            "causes": sorted({cause_of(row) for row in rows if row["verdict"] == "expected failure"})})
+        for kind in AGAINST:
+            lines[-1]["errors"][kind] = error_of([row for row in rows if row["reference_kind"] == kind])
+    first = {}
+    for place, row in enumerate(results.rows):
+        first.setdefault(results.runs.get(row["scene"], {}).get("case", row["scene"]), place)
+    # Cases in the order of the table; of a case first what DEM judges.
+    return sorted(lines, key=lambda line: (first[line["case"]], line["errors"]["DEM"] is None, line["run"] != line["case"], line["run"]))
+
+
+def cost_ratio(results, run, case):
+    """Core-seconds of a DEM-VOF record of the case over those of our run; nothing where one is not known."""
+    ours = results.runs.get(run, {}).get("numbers", {}).get("core_seconds")
+    theirs = []
+    for record in results.records.get(case, {}).values():
+        try:
+            theirs.append(json.loads((Path(record["directory"]) / "record.json").read_text(encoding="utf-8"))["core_seconds"])
+        except (OSError, ValueError, KeyError, TypeError):
+            continue
+    return sum(theirs) / len(theirs) / ours if ours and theirs else None
+
+
+def cause_of(row):
+    return row.get("expected_failure", {}).get("cause") or "not-stated"
+
+
+def by_cause(results):
+    """Expected failures under what they have in common: [{"key", "text", "rows"}], the most first."""
+    groups = {}
+    for row in results.rows:
+        if row["verdict"] == "expected failure":
+            groups.setdefault(cause_of(row), []).append(row)
+    found = [{"key": key, "text": results.causes.get(key, "No cause is stated."), "rows": rows} for key, rows in groups.items()]
+    return sorted(found, key=lambda group: -len(group["rows"]))
+
+
+def by_scene(results):
+    """All rows under their case: [{"case", "rows", "counts", "open"}]; open where something does not agree."""
+    groups = {}
+    for row in results.rows:
+        groups.setdefault(results.runs.get(row["scene"], {}).get("case", row["scene"]), []).append(row)
+    found = []
+    for case, rows in groups.items():
+        counts = [(verdict, sum(row["verdict"] == verdict for row in rows)) for verdict in ORDER]
+        found.append({"case": case, "counts": [(verdict, count) for verdict, count in counts if count],
+                      "rows": sorted(rows, key=lambda row: (not row["unexpected"], ORDER.index(row["verdict"]))),
+                      "open": any(row["verdict"] not in GOOD for row in rows)})
+    return found
