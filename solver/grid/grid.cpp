@@ -9,7 +9,9 @@ Grid::Grid(const Scene& scene) {
   std::array<bool, 3> periodic{};
   for (int d = 0; d < dim; ++d) {
     ghost[d] = ghost_layers;
-    periodic[d] = scene.sides[2 * d].kind == SideKind::periodic;
+    for (const bool upper : {false, true})
+      sides[2 * d + (upper ? 1 : 0)] = side_rule(scene, 2 * d + (upper ? 1 : 0));
+    periodic[d] = side(d, false).joined;
   }
   if (dim == 2) {
     n[2] = 1;
@@ -17,7 +19,13 @@ Grid::Grid(const Scene& scene) {
   }
   cells = Layout::make(n, ghost, periodic);
   cell_volume = h[0] * h[1] * h[2];
-  open_top = scene.sides[top].kind == SideKind::open;
+}
+
+bool Grid::sealed() const {
+  for (int d = 0; d < dim; ++d)
+    for (const bool upper : {false, true})
+      if (side(d, upper).passes_fluid) return false;
+  return true;
 }
 
 Range Grid::cells_and_ghosts(int layers) const {
@@ -37,7 +45,29 @@ Range Grid::inner_faces(int d) const {
 
 Range Grid::fluid_faces(int d) const {
   Range r = inner_faces(d);
-  if (d == 1 && open_top) r.upper[d] += 1;
+  if (side(d, false).passes_fluid) r.lower[d] -= 1;
+  if (side(d, true).passes_fluid) r.upper[d] += 1;
+  return r;
+}
+
+Range Grid::flux_faces(int d) const {
+  Range r = inner_faces(d);
+  if (side(d, false).is_open()) r.lower[d] -= 1;
+  if (side(d, true).is_open()) r.upper[d] += 1;
+  return r;
+}
+
+Range Grid::side_faces(int d, bool upper) const {
+  Range r = all_cells();
+  r.lower[d] = upper ? cells.n[d] : 0;
+  r.upper[d] = r.lower[d] + 1;
+  return r;
+}
+
+Range Grid::side_cells(int d, bool upper) const {
+  Range r = all_cells();
+  r.lower[d] = upper ? cells.n[d] - 1 : 0;
+  r.upper[d] = r.lower[d] + 1;
   return r;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/operators/mixture.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 constexpr int vertical = 1;
 
 bool closed_end(const Grid& grid, bool upper) {
-  return !grid.cells.periodic[vertical] && !(upper && grid.open_top);
+  return grid.side(vertical, upper).bears_grains;
 }
 
 Range row_of_cells(const Grid& grid, int j, int ghosts) {
@@ -26,7 +27,7 @@ void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, con
                      const Field& p_s, Field& support, Field& resting) {
   const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
   const double packed = scene.contact.solid_fraction_min;
-  const double half = 0.5 * scene.gravity * grid.h[vertical];
+  const double half = 0.5 * normal_gravity(scene) * grid.h[vertical];
   const double *f = f_s.data(), *a = alpha.data(), *p = p_s.data();
   double *r = support.data(), *out = resting.data();
   resting.fill(0.0);
@@ -59,7 +60,7 @@ void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, con
   for (const bool upper : {false, true}) {
     if (!closed_end(grid, upper)) continue;
     const std::ptrdiff_t out = upper ? grid.stride(vertical) : -grid.stride(vertical);
-    const double half = (upper ? -0.5 : 0.5) * scene.gravity * grid.h[vertical];
+    const double half = (upper ? -0.5 : 0.5) * normal_gravity(scene) * grid.h[vertical];
     const int j = upper ? grid.cells.n[vertical] - 1 : 0;
     for_each(grid.cells, row_of_cells(grid, j, 1), [=](std::ptrdiff_t c) {
       const double weight = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g));

@@ -135,12 +135,10 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
   const double slowest = slowest_sliding * velocity_;
   for (int d = 0; d < grid_.dim; ++d) {
     if (grid_.cells.periodic[d]) continue;
-    for (int upper = 0; upper < 2; ++upper) {
-      const Side& side = boundary_.side(d, upper);
-      const bool no_slip = side.kind == SideKind::wall && side.solid.kind == WallKind::no_slip;
-      if (no_slip) continue;
-      const bool coulomb = side.kind == SideKind::wall && side.solid.kind == WallKind::coulomb;
-      const double mu_w = coulomb ? side.solid.friction : 0.0;
+    for (const bool upper : {false, true}) {
+      const SideRule& side = boundary_.side(d, upper);
+      const double mu_w = side.friction;
+      if (std::isinf(mu_w)) continue;
       for (int e = 0; e < grid_.dim; ++e) {
         if (e == d) continue;
         Range wall = grid_.edges(d, e);

@@ -67,22 +67,22 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
   }
 }
 
-// The sides of direction e beside component d: a no-slip wall half a cell away, no gradient elsewhere.
+// The sides of direction e beside component d: what the ghosts are by the side's tangent.
 void ImplicitViscosity::set_sides(int d, int e, const double* edge) {
   if (grid_.cells.periodic[e]) return;
   const Layout layout = grid_.face_layout(d);
-  const double twice = 2.0 / (grid_.h[e] * grid_.h[e]);
   double *a = coefficient_[e].data(), *diagonal = diagonal_.data();
   const double* open = open_.data();
-  for (int upper = 0; upper < 2; ++upper) {
+  for (const bool upper : {false, true}) {
     Range row = Range::all(layout);
     row.lower[e] = upper ? layout.n[e] - 1 : 0;
     row.upper[e] = row.lower[e] + 1;
     if (!upper) for_each(layout, row, [=](std::ptrdiff_t c) { a[c] = 0.0; });
-    const Side& side = boundary_.side(e, upper);
-    if (side.kind != SideKind::wall || side.fluid.kind != WallKind::no_slip) continue;
+    const double share = boundary_.side(e, upper).fluid.share;
+    if (share == 1.0) continue;
+    const double held = (1.0 - share) / (grid_.h[e] * grid_.h[e]);
     const std::ptrdiff_t at = upper ? grid_.stride(e) : 0;
-    for_each(layout, row, [=](std::ptrdiff_t c) { diagonal[c] += twice * open[c] * edge[c + at]; });
+    for_each(layout, row, [=](std::ptrdiff_t c) { diagonal[c] += held * open[c] * edge[c + at]; });
   }
 }
 

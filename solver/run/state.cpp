@@ -1,11 +1,13 @@
 #include "solver/run/state.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/run/energy_budget.hpp"
 #include "solver/scene/fill.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -30,7 +32,7 @@ void settle(const Grid& grid, const Scene& scene, State& s) {
         const std::ptrdiff_t c = l.index(i, j, k);
         const double excess =
             scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
-        const double weight = std::fmax(excess, 0.0) * s.f_s[c] * scene.gravity * grid.h[1];
+        const double weight = std::fmax(excess, 0.0) * s.f_s[c] * normal_gravity(scene) * grid.h[1];
         if (s.f_s[c] > scene.contact.solid_fraction_min) {
           s.p_s[c] = load + 0.5 * weight;
           s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
@@ -56,8 +58,8 @@ State::State(const Grid& grid)
       u_strain(grid) {}
 
 void State::fill_ghosts(const Boundary& boundary) {
-  boundary.fill_scalar(f_s, 0.0);
-  boundary.fill_scalar(alpha, 0.0);
+  boundary.fill_solid_fraction(f_s);
+  boundary.fill_liquid_share(alpha);
   boundary.fill_pressure(p_c);
   boundary.fill_scalar(p_s);
   boundary.fill_scalar(theta);
@@ -84,14 +86,32 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
     s.alpha[c] = share_of(scene.liquid_boxes, box);
   });
   // Hydrostatic from the top down, with the continuous phase alone: grains at rest hang on P_s, not on P_c.
+  // Under an inclined top, from its middle.
   const Layout& l = grid.cells;
+  const double normal = normal_gravity(scene), along = confined_gravity(scene)[0];
+  const auto density = [&](std::ptrdiff_t c) {
+    return mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
+  };
+  const auto pressure_at_the_top = [&](int k) {
+    std::vector<double> pressure(static_cast<std::size_t>(l.n[0]), 0.0);
+    double mean = 0.0;
+    for (int i = 1; i < l.n[0]; ++i) {
+      const std::ptrdiff_t c = l.index(i, l.n[1] - 1, k);
+      const std::size_t here = static_cast<std::size_t>(i);
+      pressure[here] = pressure[here - 1] + 0.5 * (density(c - 1) + density(c)) * along * grid.h[0];
+      mean += pressure[here] / l.n[0];
+    }
+    for (double& p : pressure) p -= mean;
+    return pressure;
+  };
   for (int k = 0; k < l.n[2]; ++k) {
+    const std::vector<double> top = pressure_at_the_top(k);
     for (int i = 0; i < l.n[0]; ++i) {
-      double pressure = 0.0, above = 0.0;
+      double pressure = top[static_cast<std::size_t>(i)], above = 0.0;
       for (int j = l.n[1] - 1; j >= 0; --j) {
         const std::ptrdiff_t c = l.index(i, j, k);
-        const double here = mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
-        pressure += 0.5 * (above + here) * scene.gravity * grid.h[1];
+        const double here = density(c);
+        pressure += 0.5 * (above + here) * normal * grid.h[1];
         s.p_c[c] = pressure;
         above = here;
       }
@@ -99,7 +119,7 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
   }
   if (scene.model.shear_dilatancy) settle(grid, scene, s);
   s.fill_ghosts(boundary);
-  s.energy = EnergyBudget(grid, scene).stored(s);
+  s.energy = EnergyBudget(grid, scene, boundary).stored(s);
   return s;
 }
 

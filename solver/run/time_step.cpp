@@ -10,6 +10,7 @@
 #include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_transport.hpp"
 #include "solver/run/step_control.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -37,7 +38,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       interface_(grid, scene, boundary),
       temperature_(grid, scene, boundary, communicator),
       strain_(grid),
-      budget_(grid, scene),
+      budget_(grid, scene, boundary),
       predicted_s_(grid),
       predicted_c_(grid),
       mass_(grid),
@@ -99,13 +100,16 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     report.refused_because = fmt::format("solid fraction {:.3f}", densest);
     return report;
   }
+  const SideLiquid* passed = nullptr;
   cost_.time("transport", [&] {
     if (scene_.model.colour) transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
     if (scene_.model.shear_dilatancy)
       transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.packing, next.packing);
-    report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
+    passed = &interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
+    report.liquid_left = passed->total();
+    report.solid_left = solid_left(grid_, dt, flux_s_);
     set_pressure_level(grid_, scene_, next.alpha, next.p_c);
-    boundary_.fill_scalar(next.f_s, 0.0);
+    boundary_.fill_solid_fraction(next.f_s);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
   double dilated = 0.0;
@@ -121,8 +125,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
                                     strain_, production_, next.theta);
   });
   next.fill_ghosts(boundary_);
-  cost_.time("energy budget",
-             [&] { account_energy(now, dt, stress, granular, dilated, report.liquid_left, next); });
+  cost_.time("energy budget", [&] { account_energy(now, dt, stress, granular, dilated, *passed, next); });
   report.accepted = true;
   return report;
 }
@@ -145,7 +148,7 @@ void TimeStep::predict(const State& now, double dt) {
   const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
-    const double gravity = d == 1 ? -scene_.gravity : 0.0, inv_h = 1.0 / grid_.h[d];
+    const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
     const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
     if (limited && !scene_.liquid_boxes.empty()) {
       convective_acceleration_limited_in(inertia_.fluid[d], between_gas_and_liquid, grid_, now.u_c, d, fluid,
@@ -239,13 +242,13 @@ double TimeStep::dilate(double dt, State& next) {
 }
 
 void TimeStep::account_energy(const State& now, double dt, const Friction::Power& stress,
-                              const GranularLosses& granular, double dilated, double liquid_left,
+                              const GranularLosses& granular, double dilated, const SideLiquid& passed,
                               State& next) {
   const FluidViscosity::Power viscous = viscosity_.power(boundary_);
   next.energy.add(
       budget_.of_step(dt, now, next,
                       {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_, flux_c_solved_,
-                       rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
+                       rheology_, strain_, viscous, stress, granular, dilated, passed}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

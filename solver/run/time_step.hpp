@@ -23,7 +23,7 @@ struct StepReport {
   std::string refused_because;  // empty if accepted
   PressureReport pressure;
   linear::Report friction;
-  double liquid_left = 0.0;  // volume that left through the open top [m3]
+  double liquid_left = 0.0, solid_left = 0.0;  // volumes that left through sides, net [m3]
 };
 
 // Accelerations beside gravity, on the faces of each direction [m/s2]: the sources of a manufactured
@@ -50,7 +50,7 @@ class TimeStep {
   bool bears_explicit_viscosity(double dt) const;
   double dilate(double dt, State& next);
   void account_energy(const State& now, double dt, const Friction::Power& stress,
-                      const GranularLosses& granular, double dilated, double liquid_left, State& next);
+                      const GranularLosses& granular, double dilated, const SideLiquid& passed, State& next);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;

@@ -31,7 +31,12 @@ std::vector<Key> scene_keys() {
       otherwise(
           key("tank.depth", "m", positive, MEMBER(depth), "2D only: depth that results are stated for."),
           "1"),
-      key("tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity), "Acts against y."),
+      key("tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity), "Acts against y in a level tank."),
+      came_later(
+          key("tank.inclination", "degrees",
+              Range{.lower = -90.0, .upper = 90.0, .lower_open = true, .upper_open = true},
+              MEMBER(scene.inclination),
+              "Of the floor, down towards +x: g = gravity (sin, -cos). Levels and beds stay along x.")),
       required(key("grid.dx", "m", positive, MEMBER(dx), "Cell size in x; divides the tank's size.")),
       otherwise(key("grid.dy", "m", positive, MEMBER(dy), "Cell size in y."), "grid.dx"),
       otherwise(key("grid.dz", "m", positive, MEMBER(dz), "3D only: cell size in z."), "grid.dx"),

@@ -213,9 +213,10 @@ struct Scene {
   std::string name;  // unique, equals the file's stem
   std::string title;
   std::filesystem::path file;
-  int dimensions = 2;  // 2 or 3
-  Vec3 tank{};         // inner size [m]; in 2D tank[2] is the depth the results are stated for
-  double gravity = 9.81;
+  int dimensions = 2;        // 2 or 3
+  Vec3 tank{};               // inner size [m]; in 2D tank[2] is the depth the results are stated for
+  double gravity = 9.81;     // |g| [m/s2], >= 0
+  double inclination = 0.0;  // of the floor, down towards +x [degrees], in (-90, 90)
   Grid3 grid;
   std::array<Side, 6> sides{};  // indexed by SideIndex
   Fluid gas;

@@ -1,0 +1,18 @@
+#include "solver/grid/sides/side_rule.hpp"
+
+namespace granvof {
+
+SideRule side_rule(const Scene& scene, int side) {
+  const Side& given = scene.sides[side];
+  switch (given.kind) {
+    case SideKind::wall:
+      return wall_rule(given);
+    case SideKind::open:
+      return open_top_rule(scene);
+    case SideKind::periodic:
+      return periodic_rule();
+  }
+  return {};
+}
+
+}  // namespace granvof
