@@ -2,23 +2,35 @@
 
 namespace granvof {
 
-Grid::Grid(const Scene& scene) {
-  dim = scene.dimensions;
-  h = scene.grid.spacing;
+namespace {
+
+Layout layout_of(const Scene& scene) {
   std::array<int, 3> n = scene.grid.cells, ghost{};
   std::array<bool, 3> periodic{};
-  for (int d = 0; d < dim; ++d) {
+  for (int d = 0; d < scene.dimensions; ++d) {
     ghost[d] = ghost_layers;
-    for (const bool upper : {false, true})
-      sides[2 * d + (upper ? 1 : 0)] = side_rule(scene, 2 * d + (upper ? 1 : 0));
-    periodic[d] = side(d, false).joined;
+    periodic[d] = side_rule(scene, 2 * d).joined;
   }
-  if (dim == 2) {
-    n[2] = 1;
-    h[2] = scene.tank[2];
-  }
-  cells = Layout::make(n, ghost, periodic);
+  if (scene.dimensions == 2) n[2] = 1;
+  return Layout::make(n, ghost, periodic);
+}
+
+}  // namespace
+
+Grid::Grid(const Scene& scene)
+    : dim(scene.dimensions),
+      cells(layout_of(scene)),
+      h(scene.grid.spacing),
+      obstacles(cells, dim, h, scene.obstacles) {
+  for (int side = 0; side < 6; ++side) sides[side] = side_rule(scene, side);
+  if (dim == 2) h[2] = scene.tank[2];
   cell_volume = h[0] * h[1] * h[2];
+}
+
+bool Grid::has_whole_columns() const {
+  bool only_the_top = obstacles.none();
+  for_each_open_side([&](int d, bool upper) { only_the_top = only_the_top && d == 1 && upper; });
+  return only_the_top;
 }
 
 bool Grid::sealed() const {

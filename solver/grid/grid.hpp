@@ -7,6 +7,7 @@
 
 #include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
+#include "solver/grid/obstacles.hpp"
 #include "solver/grid/sides/side_rule.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -20,8 +21,12 @@ struct Grid {
   Vec3 h{};                       // spacing [m]
   double cell_volume = 0.0;       // [m3]; in 2D times the tank's depth
   std::array<SideRule, 6> sides;  // indexed by SideIndex
+  Obstacles obstacles;
 
   explicit Grid(const Scene& scene);
+
+  // Every column of cells is open from the floor to the top, and nothing flows through other sides than that.
+  bool has_whole_columns() const;
 
   std::ptrdiff_t stride(int d) const { return cells.stride[d]; }
   Range all_cells() const { return Range::all(cells); }

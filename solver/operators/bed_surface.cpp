@@ -32,6 +32,7 @@ void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, con
   double *r = support.data(), *out = resting.data();
   resting.fill(0.0);
   const int n = grid.cells.n[vertical];
+  const char* solid = grid.obstacles.solid();
   for (const bool light : {false, true}) {
     if (light ? rho_s >= std::fmax(rho_l, rho_g) : rho_s <= std::fmin(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
@@ -41,12 +42,13 @@ void rest_on_the_bed(const Grid& grid, const Scene& scene, const Field& f_s, con
       const bool first = step == 0;
       for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
         const double beneath = f[c + below] / packed;
-        r[c] = first ? end : (beneath >= 1.0 ? 1.0 : beneath * r[c + below]);
+        const bool on_obstacle = solid != nullptr && !first && solid[c + below] != 0;
+        r[c] = on_obstacle ? 1.0 : first ? end : (beneath >= 1.0 ? 1.0 : beneath * r[c + below]);
         const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
         if (excess <= 0.0) return;  // its grains press the other way
         const double bare = 1.0 - std::fmin(f[c - below] / packed, 1.0);
         const double weight = half * excess * r[c] * bare;
-        out[c] = first ? weight : std::fmin(weight, p[c + below] / packed);
+        out[c] = first || on_obstacle ? weight : std::fmin(weight, p[c + below] / packed);
       });
     }
   }

@@ -97,7 +97,7 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
       if (!grid_.side(d, upper).passes_fluid) continue;
       for_each(grid_.cells, grid_.side_faces(d, upper), [=](std::ptrdiff_t i) {
         const double f_c = 1.0 - f[i];
-        c_c[i] = f_c / (fluid[i] / dt + (f[i] >= least_solid_fraction ? b[i] : 0.0));
+        c_c[i] = open[i] * f_c / (fluid[i] / dt + (f[i] >= least_solid_fraction ? b[i] : 0.0));
         s_c[i] = s_s[i] = c_s[i] = 0.0;
       });
     }

@@ -83,7 +83,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   if (is_empty(box_)) return {0, 0.0, 0.0, true};
   set_viscosity(rheology, u_strain);
   mark_faces(inertia, aperture);
-  cut_edges_beside_empty_faces(inertia);
+  cut_edges_beside_empty_faces(inertia, rheology);
 
   // Solve for the change of the guess: walls, the gate and faces without grains then enter through the
   // residual alone.

@@ -54,7 +54,8 @@ class Friction {
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
-  void cut_edges_beside_empty_faces(const FaceInertia& inertia);
+  void cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology);
+  void hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane);
   void set_preconditioner(const FaceField& mass);
   void set_weights(const FaceField& mass);
   // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see

@@ -34,7 +34,7 @@ double largest_granular_temperature(const Scene& scene) {
   for (const Side& side : scene.sides) {
     double square = 0.0;
     for (const double v : side.velocity) square += v * v;
-    wall_speed_squared = std::max(wall_speed_squared, square);
+    wall_speed_squared = std::max({wall_speed_squared, square, side.inflow.speed * side.inflow.speed});
   }
   return 2.0 / 3.0 *
          (std::fabs(g[1]) * scene.tank[1] + std::fabs(g[0]) * scene.tank[0] + 0.5 * wall_speed_squared);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/operators/edge_mean.hpp"
+#include "solver/operators/strain.hpp"
 #include "solver/scene/scales.hpp"
 
 namespace granvof {
@@ -58,8 +59,15 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
     if (e == d) {
       couple([=](std::ptrdiff_t c) { return 2.0 * mu[c - s]; },
              [=](std::ptrdiff_t c) { return 2.0 * mu[c]; });
+      if (!grid_.cells.periodic[d]) {  // no gradient beyond a lower side that the fluid passes
+        Range first = Range::all(layout);
+        first.upper[d] = 1;
+        for_each(layout, first, [=](std::ptrdiff_t c) { a[c] = 0.0; });
+      }
     } else {
       for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) { edge[c] = edge_mean(mu, c, s, t); });
+      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(std::min(d, e), std::max(d, e))))
+        if (o.flat) edge[o.at] *= 2.0;  // half a cell away
       boundary_.exchange(edge_);
       couple([=](std::ptrdiff_t c) { return edge[c]; }, [=](std::ptrdiff_t c) { return edge[c + t]; });
       set_sides(d, e, edge);

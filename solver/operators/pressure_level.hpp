@@ -20,9 +20,15 @@ inline void set_pressure_level(const Grid& grid, const Scene& scene, const Field
   double* p = p_c.data();
   Range top = grid.all_cells();
   top.lower[1] = grid.cells.n[1] - 1;
-  const double mean =
-      sum_over(grid.cells, top, [=](std::ptrdiff_t c) { return p[c] - half * mixture(a[c], rho_l, rho_g); }) /
-      (static_cast<double>(grid.cells.n[0]) * grid.cells.n[2]);
+  const char* solid = grid.obstacles.solid();
+  const auto counts = [=](std::ptrdiff_t c) { return solid == nullptr || solid[c] == 0; };
+  const double open = sum_over(grid.cells, top, [=](std::ptrdiff_t c) { return counts(c) ? 1.0 : 0.0; });
+  if (open == 0.0) return;  // obstacles all along the lid: any level is as good
+  const double mean = sum_over(grid.cells, top,
+                               [=](std::ptrdiff_t c) {
+                                 return counts(c) ? p[c] - half * mixture(a[c], rho_l, rho_g) : 0.0;
+                               }) /
+                      open;
   for_each(grid.cells, [=](std::ptrdiff_t c) { p[c] -= mean; });
 }
 

@@ -105,7 +105,12 @@ Value potential_energy_liquid(const CellFields& fields, const Scene& scene) {
   return potential_energy(fields, scene, liquid_share, scene.liquid.density);
 }
 Value potential_energy_gas(const CellFields& fields, const Scene& scene) {
-  return potential_energy(fields, scene, gas_share, scene.gas.density);
+  const std::vector<bool> solid = obstacle_cells(fields, scene);
+  const double all = potential_energy(fields, scene, gas_share, scene.gas.density);
+  if (solid.empty()) return all;
+  CellFields inside = fields;  // what the cells of obstacles would hold
+  for (std::size_t c = 0; c < solid.size(); ++c) inside.f_s[c] = solid[c] ? 0.0 : 1.0;
+  return all - potential_energy(inside, scene, gas_share, scene.gas.density);
 }
 
 }  // namespace granvof::scalar

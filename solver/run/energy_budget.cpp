@@ -198,6 +198,15 @@ double EnergyBudget::potential_energy(const State& s) const {
                return f[c] * rho_s + (1.0 - f[c]) * mixture(a[c], rho_l, rho_g);
              });
     }
+    if (const char* solid = grid_.obstacles.solid()) {  // they hold no gas
+      for (int j = 0; j < grid_.cells.n[d]; ++j) {
+        Range row = grid_.all_cells();
+        row.lower[d] = j;
+        row.upper[d] = j + 1;
+        sum -= (j + 0.5) * rho_g *
+               sum_over(grid_.cells, row, [=](std::ptrdiff_t c) { return solid[c] != 0 ? 1.0 : 0.0; });
+      }
+    }
     energy -= g[d] * grid_.h[d] * grid_.cell_volume * sum;
   }
   return energy;

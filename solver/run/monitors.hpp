@@ -15,6 +15,8 @@ class Monitors {
   // After an accepted step; what left through the sides, net [m3].
   void update(const State& s, double liquid_left, double solid_left);
 
+  double solid_volume(const State& s) const;                    // [m3]
+  double liquid_volume(const State& s) const;                   // [m3]
   double solid_volume_error() const { return solid_error_; }    // largest relative change so far [-]
   double liquid_volume_error() const { return liquid_error_; }  // the same, outflow accounted for [-]
   double solid_fraction_max() const { return solid_max_; }      // largest ever [-]
@@ -33,9 +35,6 @@ class Monitors {
   void restore(const Values& v);
 
  private:
-  double solid_volume(const State& s) const;
-  double liquid_volume(const State& s) const;
-
   const Grid& grid_;
   double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0, solid_left_ = 0.0;
   double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0, solid_min_ = 1.0;

@@ -25,11 +25,16 @@ void for_cells(const Grid& grid, Body&& body) {
 // nothing yet.
 void settle(const Grid& grid, const Scene& scene, State& s) {
   const Layout& l = grid.cells;
+  const char* solid = grid.obstacles.solid();
   for (int k = 0; k < l.n[2]; ++k) {
     for (int i = 0; i < l.n[0]; ++i) {
       double load = 0.0;
       for (int j = l.n[1] - 1; j >= 0; --j) {
         const std::ptrdiff_t c = l.index(i, j, k);
+        if (solid != nullptr && solid[c] != 0) {  // what lies on an obstacle does not press on what is below
+          load = 0.0;
+          continue;
+        }
         const double excess =
             scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
         const double weight = std::fmax(excess, 0.0) * s.f_s[c] * normal_gravity(scene) * grid.h[1];
@@ -117,6 +122,8 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
       }
     }
   }
+  // Until here as if the tank were empty: the water on both sides of an obstacle is one body.
+  for (const std::ptrdiff_t c : grid.obstacles.cells()) s.f_s[c] = s.alpha[c] = s.phi[c] = s.p_c[c] = 0.0;
   if (scene.model.shear_dilatancy) settle(grid, scene, s);
   s.fill_ghosts(boundary);
   s.energy = EnergyBudget(grid, scene, boundary).stored(s);

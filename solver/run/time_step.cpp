@@ -38,6 +38,8 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       interface_(grid, scene, boundary),
       temperature_(grid, scene, boundary, communicator),
       strain_(grid),
+      whole_columns_(grid.has_whole_columns()),
+      continuity_tree_(grid),
       budget_(grid, scene, boundary),
       predicted_s_(grid),
       predicted_c_(grid),
@@ -47,13 +49,15 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       flux_c_(grid),
       flux_c_solved_(grid),
       stirred_(grid),
-      production_(grid) {}
+      production_(grid) {
+  if (!whole_columns_) continuity_tree_.grow(aperture_);
+}
 
 StepReport TimeStep::advance(const State& now, double dt, State& next, const BodyAcceleration* extra) {
   StepReport report;
   next = now;
   next.time = now.time + dt;
-  aperture_.update(next.time);
+  if (aperture_.update(next.time) && !whole_columns_) continuity_tree_.grow(aperture_);
 
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
@@ -90,7 +94,10 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("transport", [&] {
     keep_solid_positive(grid_, boundary_, dt, now.f_s, flux_s_, flux_c_);
     flux_c_solved_ = flux_c_;
-    close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);
+    if (whole_columns_)
+      close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);
+    else
+      continuity_tree_.close(boundary_, flux_s_, flux_c_);
     transport_solid(grid_, dt, now.f_s, flux_s_, next.f_s);
   });
   const double* f = next.f_s.data();

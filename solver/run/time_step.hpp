@@ -4,6 +4,7 @@
 #include <string>
 
 #include "solver/operators/aperture.hpp"
+#include "solver/operators/continuity_tree.hpp"
 #include "solver/operators/coupled_pressure.hpp"
 #include "solver/operators/friction.hpp"
 #include "solver/operators/granular_temperature.hpp"
@@ -67,6 +68,8 @@ class TimeStep {
   InterfaceTransport interface_;
   GranularTemperature temperature_;
   StrainRate strain_;
+  bool whole_columns_;  // else the tree closes continuity
+  ContinuityTree continuity_tree_;
   EnergyBudget budget_;
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
   FaceField mass_, rhs_;                 // of the implicit solid momentum

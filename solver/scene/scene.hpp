@@ -30,9 +30,27 @@ struct PhaseWall {
 };
 
 enum class SideKind {
-  wall,     // closed to every phase
-  open,     // top only: fluid passes at P_c = 0, gas flows in, grains do not pass
-  periodic  // joined to the opposite side
+  wall,      // closed to every phase
+  open,      // top only: fluid passes at P_c = 0, gas flows in, grains do not pass
+  periodic,  // joined to the opposite side
+  inlet,     // both phases come in at a given speed
+  outlet     // both phases leave, the fluid at a given pressure
+};
+
+// What comes in through an inlet: speed of both phases along the inward normal, and their fractions.
+struct Inflow {
+  double speed = 0.0;           // [m/s], > 0
+  double solid_fraction = 0.0;  // [-]; at 0 grains find a closed wall
+  double liquid_share = 0.0;    // alpha [-]
+  bool operator==(const Inflow&) const = default;
+};
+
+// P_c on an outlet: `pressure` at its upper end, from there down that of a fluid at rest beyond it, gas above
+// `level` and liquid below.
+struct Outflow {
+  double pressure = 0.0;  // [Pa]
+  double level = 0.0;     // [m]
+  bool operator==(const Outflow&) const = default;
 };
 
 struct Side {
@@ -40,6 +58,8 @@ struct Side {
   PhaseWall fluid;
   PhaseWall solid;
   Vec3 velocity{};  // tangential velocity of the wall [m/s]
+  Inflow inflow;    // of an inlet
+  Outflow outflow;  // of an outlet
   bool operator==(const Side&) const = default;
 };
 
@@ -226,6 +246,7 @@ struct Scene {
   std::optional<Bed> bed;
   std::vector<Box> liquid_boxes;  // where alpha = 1 at the start, pores of the bed included
   std::optional<Gate> gate;
+  std::vector<Box> obstacles;  // closed to every phase; made of whole cells
   std::optional<ReferenceSettings> reference;
   Model model;
   Numerics numerics;

@@ -11,6 +11,10 @@ SideRule side_rule(const Scene& scene, int side) {
       return open_top_rule(scene);
     case SideKind::periodic:
       return periodic_rule();
+    case SideKind::inlet:
+      return inlet_rule(given.inflow);
+    case SideKind::outlet:
+      return outlet_rule(scene, side);
   }
   return {};
 }

@@ -53,6 +53,8 @@ struct SideRule {
 SideRule wall_rule(const Side& side);
 SideRule open_top_rule(const Scene& scene);
 SideRule periodic_rule();
+SideRule inlet_rule(const Inflow& inflow);
+SideRule outlet_rule(const Scene& scene, int side);
 
 // Of one of the six sides of a scene: the one list of kinds.
 SideRule side_rule(const Scene& scene, int side);
