@@ -17,6 +17,22 @@ std::ptrdiff_t index(const Layout& l, const std::array<int, 3>& at) {
   return l.index(at[0], at[1], at[2]);
 }
 
+std::array<int, 3> place_of(const Layout& l, std::ptrdiff_t c) {
+  std::array<int, 3> at{};
+  for (int d = 0; d < 3; ++d) {
+    const int wide = l.n[d] + 2 * l.ghost[d];
+    at[d] = static_cast<int>(c / l.stride[d] % wide) - l.ghost[d];
+  }
+  return at;
+}
+
+// Not beyond a side that is none of a period.
+bool in_the_tank(const Layout& l, const std::array<int, 3>& at) {
+  for (int d = 0; d < 3; ++d)
+    if (!l.periodic[d] && (at[d] < 0 || at[d] >= l.n[d])) return false;
+  return true;
+}
+
 }  // namespace
 
 Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::vector<Box>& boxes) {
@@ -90,6 +106,9 @@ void Obstacles::find_surface(const Layout& l, int dim) {
       const int deep = dim == 3 ? 1 : 0;
       for_places({-1, -1, -deep}, {2, 2, deep + 1}, [&](const std::array<int, 3>& step) {
         if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) != reach) return;
+        std::array<int, 3> at = place_of(l, c);
+        for (int d = 0; d < 3; ++d) at[d] += step[d];
+        if (!in_the_tank(l, at)) return;
         const std::ptrdiff_t other =
             c + step[0] * l.stride[0] + step[1] * l.stride[1] + step[2] * l.stride[2];
         if (!is_solid(other)) surface.beside.push_back(other);
