@@ -98,9 +98,21 @@ def test_the_closure_passes_its_test(tmp_path):
     assert done.returncode == 0 and "1 test" in done.stdout
 
 
+def test_the_side_passes_its_test(tmp_path):
+    for block in blocks("side.md", "cpp"):
+        file = tmp_path / re.match(r"// (\S+)\n", block)[1]
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(block, encoding="utf-8")
+    built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", f"-I{ROOT}", *sorted(tmp_path.rglob("*.cpp")), "-lgtest",
+                 "-lgtest_main", "-o", tmp_path / "test")
+    assert built.returncode == 0, built.stderr
+    done = call(tmp_path / "test")
+    assert done.returncode == 0 and "1 test" in done.stdout
+
+
 def test_a_kind_of_side_is_met_in_the_places_listed():
     listed = set(re.findall(r"\]\(\.\./\.\./([^)]*\.[ch]pp)\)", (PAGES / "side.md").read_text(encoding="utf-8")))
     asks = {path.relative_to(ROOT).as_posix() for folder in ("solver", "reference", "compare") for kind in ("*.hpp", "*.cpp")
             for path in (ROOT / folder).rglob(kind)
-            if "tests" not in path.parts and re.search(r"SideKind|open_top", path.read_text(encoding="utf-8"))}
+            if "tests" not in path.parts and re.search(r"SideKind", path.read_text(encoding="utf-8"))}
     assert asks <= listed, "files that ask for the kind of a side, and are not on the page"

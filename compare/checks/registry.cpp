@@ -13,12 +13,14 @@
 #include "compare/metrics/conservation.hpp"
 #include "compare/metrics/decay_rate.hpp"
 #include "compare/metrics/deposit_shape.hpp"
+#include "compare/metrics/fluid_pressure.hpp"
 #include "compare/metrics/immersion.hpp"
 #include "compare/metrics/period.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
 #include "compare/metrics/series_difference.hpp"
 #include "compare/metrics/toe_drift.hpp"
+#include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -188,12 +190,32 @@ Measured liquid_front_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(scaled_liquid_front(run), *p.at), "no liquid front at that tau");
 }
 
+// --- pressure of the last instant ------------------------------------------------------------------------
+
+Measured of_last_fields(const Run& run, double (*measure)(const CellFields&, const Scene&)) {
+  const std::size_t instants = run.field_times().size();
+  if (instants == 0) return {std::nullopt, "undefined: no fields"};
+  return {measure(read_fields(run.directory / "fields.h5", instants - 1), run.scene), ""};
+}
+
+Measured hydrostatic(const Run& run, const Parameters&, const FindRun&) {
+  return of_last_fields(run, hydrostatic_distance);
+}
+
+Measured ergun(const Run& run, const Parameters&, const FindRun&) {
+  return of_last_fields(run, ergun_ratio);
+}
+
 // --- volumes, bounds, speeds, cost ---------------------------------------------------------------------
 
 // The solver's own account covers every step, the series only the output times: the worse of the two counts.
+// Where something flows through the tank the account alone knows what has passed its sides.
 Measured volume_error_of(const Run& run, std::string_view column, std::string_view fact) {
-  const auto sampled = volume_error(run.curve(column));
   const auto counted = run.facts.number(fact);
+  const bool through = std::ranges::any_of(run.scene.sides, [](const Side& side) {
+    return side.kind == SideKind::inlet || side.kind == SideKind::outlet;
+  });
+  const auto sampled = through ? std::optional(0.0) : volume_error(run.curve(column));
   if (!sampled || !counted) return {std::nullopt, "undefined: no volume in the series or in run.json"};
   return {std::max(*sampled, std::abs(*counted)), ""};
 }
@@ -327,6 +349,12 @@ constexpr std::array table{
     MetricEntry{"interface_height", "m", "height of alpha = 0.5 in the profile over the tank at t = at",
                 at_only, interface_height_at},
     MetricEntry{"liquid_front", "-", "x / a of the water front at tau = at", at_only, liquid_front_at},
+    MetricEntry{
+        "hydrostatic_distance", "-",
+        "largest distance of P_c from that of a tank full of liquid at rest, over its largest, at the end",
+        none, hydrostatic},
+    MetricEntry{"ergun_ratio", "-",
+                "pressure that a bed takes from the flow through it, over Ergun's, at the end", none, ergun},
     MetricEntry{"solid_volume_error", "-", "largest relative change of the solid volume", none,
                 solid_volume_error},
     MetricEntry{"liquid_volume_error", "-", "largest relative change of the liquid volume", none,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/scene/gravity.hpp"
+
 namespace granvof::compare {
 namespace {
 
@@ -54,7 +56,17 @@ std::optional<double> triangle_flat_top(const Run&, const Parameters&) {
   return 0.05 / 0.95;
 }
 
-constexpr std::array<FormulaEntry, 5> table{{
+std::optional<double> film_speed(const Run& run, const Parameters&) {
+  const Scene& scene = run.scene;
+  const double depth = scene.tank[1], y = depth - 0.5 * scene.grid.spacing[1];
+  return scene.liquid.density * gravity_of(scene)[0] / scene.liquid.viscosity * (depth * y - 0.5 * y * y);
+}
+
+std::optional<double> channel_speed(const Run& run, const Parameters&) {
+  return 1.5 * run.scene.sides[left].inflow.speed;
+}
+
+constexpr std::array<FormulaEntry, 7> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
@@ -68,6 +80,9 @@ constexpr std::array<FormulaEntry, 5> table{{
     {"triangle_flat_top", "-", "a triangle's share within 5 % of its tip of the length above 5 % of it",
      triangle_flat_top},
     {"solid_fraction_max", "-", "f_s,max of (13)", solid_fraction_max},
+    {"film_speed", "m/s",
+     "u = rho g sin(theta) / mu (h y - y^2 / 2) at the uppermost cells' centres (Nusselt 1916)", film_speed},
+    {"channel_speed", "m/s", "3/2 of the mean speed between plates (Poiseuille)", channel_speed},
 }};
 
 }  // namespace

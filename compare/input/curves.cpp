@@ -7,6 +7,7 @@
 #include "compare/metrics/dam_break.hpp"
 #include "compare/metrics/solid_level.hpp"
 #include "solver/output/fields_file.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -43,7 +44,7 @@ double base_pressure_at_rest(const Scene& scene) {
   double level = 0.0;
   for (const Box& box : scene.liquid_boxes) level = std::max(level, box.upper[1]);
   const double depth = level - 0.5 * scene.grid.spacing[1];
-  return scene.gravity * (scene.liquid.density * depth + scene.gas.density * (scene.tank[1] - level));
+  return normal_gravity(scene) * (scene.liquid.density * depth + scene.gas.density * (scene.tank[1] - level));
 }
 
 Curve excess_base_pressure(const Run& run) {

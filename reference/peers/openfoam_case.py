@@ -35,6 +35,8 @@ class Tank:
         self.cells = [round(length / edge) for length, edge in zip(self.size, spacing)]
         self.spacing = [length / n for length, n in zip(self.size, self.cells)]
         self.gravity = scene["tank"]["gravity"]
+        angle = math.radians(scene["tank"].get("inclination", 0))
+        self.pull = [self.gravity * math.sin(angle), -self.gravity * math.cos(angle), 0]
 
     def side(self, name):
         """'no-slip', 'slip', 'open', or 'empty' for the faces across a slice."""
@@ -123,7 +125,7 @@ def write_properties(directory, tank):
         return f"{name} {{ transportModel Newtonian; nu {p['viscosity'] / p['density']:.12g}; rho {p['density']:.12g}; }}\n"
 
     foam_file(directory, "constant/g", "uniformDimensionedVectorField",
-              f"dimensions [0 1 -2 0 0 0 0];\nvalue (0 {-tank.gravity:.12g} 0);\n")
+              f"dimensions [0 1 -2 0 0 0 0];\nvalue ({tank.pull[0]:.12g} {tank.pull[1]:.12g} 0);\n")
     foam_file(directory, "constant/transportProperties", "dictionary",
               "phases (water air);\n" + phase("water", liquid) + phase("air", gas) + "sigma 0;\n")
     foam_file(directory, "constant/turbulenceProperties", "dictionary", "simulationType laminar;\n")

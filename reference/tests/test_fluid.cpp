@@ -54,6 +54,20 @@ TEST(Fluid, APoolStaysAtRestUnderHydrostaticPressure) {
   EXPECT_NEAR(fluid.boundary_force()[1], weight, 0.01 * weight);
 }
 
+// Full of water and closed, the floor inclined by 30 degrees: at rest, and along the floor as well.
+TEST(Fluid, AnInclinedTankStandsInHydrostaticPressure) {
+  FluidSettings s = tank(16, 16);
+  s.sides[3] = FluidSide::slip;
+  s.inclination = 30.0;
+  Fluid fluid(s, std::vector<double>(256, 1.0), std::vector<double>(256, 1.0));
+  const BeadLoad load = no_beads(256);
+  for (int n = 0; n < 20; ++n) fluid.step(2e-4, load);
+  EXPECT_LT(fluid.largest_speed(), 1e-6);
+  const std::vector<double>& p = fluid.view().pressure;
+  EXPECT_NEAR(p[15] - p[0], 1000.0 * 9.81 * 0.5 * 15 * 2.5e-3, 0.1);
+  EXPECT_NEAR(p[0] - p[15 * 16], 1000.0 * 9.81 * std::sqrt(0.75) * 15 * 2.5e-3, 0.1);
+}
+
 TEST(Fluid, BeforeTheFirstStepThePressureIsHydrostatic) {
   const FluidSettings s = tank(16, 16);
   const Fluid fluid(s, filled_to(s, 0.025, 16), std::vector<double>(256, 1.0));

@@ -1,6 +1,7 @@
 // From a case to the settings of the two sides.
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,19 @@ TEST(SceneSetup, ASliceThinnerThanTwoBeadsIsRefused) {
   EXPECT_EQ(refusal({"reference.coarse_graining=2.5"}), "");
   const std::string why = refusal({"reference.coarse_graining=2.6"});
   EXPECT_NE(why.find("reference.slice_depth is 0.004 m, allowed: >= 0.00416 m"), std::string::npos) << why;
+}
+
+TEST(SceneSetup, WhatOnlyTheContinuumHasIsRefused) {
+  for (const auto& [change, what] :
+       {std::pair{"walls.right.outflow_pressure=0", "an inlet or an outlet"},
+        std::pair{"obstacle={x0=[0.025], x1=[0.03], y0=[0], y1=[0.005]}", "obstacles"}})
+    EXPECT_NE(refusal({change}).find(what), std::string::npos) << refusal({change});
+}
+
+TEST(SceneSetup, AnInclinedTankIsInclinedForBoth) {
+  EXPECT_EQ(refusal({"tank.inclination=12"}), "");
+  EXPECT_EQ(demvof::fluid_settings(small({"tank.inclination=12"}), "scratch").inclination, 12.0);
+  EXPECT_EQ(demvof::bead_settings(small({"tank.inclination=12"}), "scratch").inclination, 12.0);
 }
 
 TEST(SceneSetup, BeadsLargerThanTheCellsAreRefused) {

@@ -14,7 +14,28 @@ void for_side(const Layout& l, int d, Body&& body) {
 
 }  // namespace
 
-// rule(value of the nearest cell, true at an open top) is the ghost value.
+Boundary::Boundary(const Grid& grid, const Scene&, const Communicator& communicator)
+    : grid_(grid), communicator_(communicator) {
+  const Layout& l = grid.cells;
+  grid.for_each_open_side([&](int d, bool upper) {
+    const SideRule& rule = grid.side(d, upper);
+    if (!rule.pressure) return;
+    if (!has_pressure_) side_pressure_ = Field(grid);
+    has_pressure_ = true;
+    std::array<int, 3> at{};
+    const int e = (d + 1) % 3, f = (d + 2) % 3;
+    at[d] = upper ? l.n[d] : -1;
+    for (at[f] = -l.ghost[f]; at[f] < l.n[f] + l.ghost[f]; ++at[f])
+      for (at[e] = -l.ghost[e]; at[e] < l.n[e] + l.ghost[e]; ++at[e]) {
+        Vec3 place{};
+        for (int c = 0; c < 3; ++c) place[c] = (at[c] + 0.5) * grid.h[c];
+        place[d] = upper ? l.n[d] * grid.h[d] : 0.0;
+        side_pressure_[l.index(at[0], at[1], at[2])] = rule.pressure(place);
+      }
+  });
+}
+
+// rule(the side's, value of the nearest cell, index of the first cell beyond) is the ghost value.
 template <typename Rule>
 void Boundary::fill_cells(Field& f, Rule&& rule) const {
   const Layout& l = grid_.cells;
@@ -22,26 +43,94 @@ void Boundary::fill_cells(Field& f, Rule&& rule) const {
   for (int d = 0; d < grid_.dim; ++d) {
     if (l.periodic[d]) continue;
     const std::ptrdiff_t s = l.stride[d], last = (l.n[d] - 1) * s;
-    const bool open = d == 1 && grid_.open_top;
+    const SideRule &lower = side(d, false), &upper = side(d, true);
     for_side(l, d, [&](std::ptrdiff_t line) {
       for (int g = 1; g <= l.ghost[d]; ++g) {
-        f[line - g * s] = f[line];
-        f[line + last + g * s] = rule(f[line + last], open);
+        f[line - g * s] = rule(lower, f[line], line - s);
+        f[line + last + g * s] = rule(upper, f[line + last], line + last + s);
       }
     });
   }
 }
 
 void Boundary::fill_scalar(Field& f) const {
-  fill_cells(f, [](double inside, bool) { return inside; });
+  fill_cells(f, [](const SideRule&, double inside, std::ptrdiff_t) { return inside; });
 }
 
-void Boundary::fill_scalar(Field& f, double beyond_open_top) const {
-  fill_cells(f, [=](double inside, bool open) { return open ? beyond_open_top : inside; });
+void Boundary::fill_scalar(Field& f, double beyond) const {
+  fill_cells(f, [=](const SideRule& side, double inside, std::ptrdiff_t) {
+    return side.passes_fluid ? beyond : inside;
+  });
+}
+
+void Boundary::fill_solid_fraction(Field& f_s) const {
+  fill_cells(f_s, [](const SideRule& side, double inside, std::ptrdiff_t) {
+    return side.solid_fraction.value_or(inside);
+  });
+}
+
+void Boundary::fill_liquid_share(Field& alpha) const {
+  fill_cells(alpha, [](const SideRule& side, double inside, std::ptrdiff_t) {
+    return side.liquid_share.value_or(inside);
+  });
 }
 
 void Boundary::fill_pressure(Field& p) const {
-  fill_cells(p, [](double inside, bool open) { return open ? -inside : inside; });
+  const double* given = side_pressure();
+  fill_cells(p, [=](const SideRule& side, double inside, std::ptrdiff_t beyond) {
+    if (!side.passes_fluid) return inside;
+    return given && side.pressure ? 2.0 * given[beyond] - inside : -inside;
+  });
+}
+
+void Boundary::fill_pressure_increment(Field& p) const {
+  fill_cells(p, [](const SideRule& side, double inside, std::ptrdiff_t) {
+    return side.passes_fluid ? -inside : inside;
+  });
+}
+
+// The faces on both sides of direction d.
+void Boundary::fill_sides(FaceField& u, int d, Phase phase) const {
+  const Layout& l = grid_.cells;
+  const std::ptrdiff_t s = l.stride[d];
+  for (const bool upper : {false, true}) {
+    const SideRule& rule = side(d, upper);
+    const std::ptrdiff_t face = upper ? l.n[d] * s : 0, inward = upper ? -s : s;
+    const double outward = upper ? 1.0 : -1.0;
+    if (phase == Phase::solid && rule.passes_grains) {
+      for_side(l, d, [&](std::ptrdiff_t line) {
+        const double arriving = u[d][line + face + inward];
+        u[d][line + face] = arriving * outward > 0.0 ? arriving : 0.0;
+      });
+    } else if (!rule.passes(phase)) {
+      const double given = rule.inflow(phase) == 0.0 ? 0.0 : -outward * rule.inflow(phase);
+      for_side(l, d, [&](std::ptrdiff_t line) { u[d][line + face] = given; });
+    }
+  }
+}
+
+void Boundary::fill_beyond(FaceField& u, int d, bool upper, Phase phase) const {
+  const Layout& l = grid_.cells;
+  const std::ptrdiff_t s = l.stride[d], out = upper ? s : -s;
+  const SideRule& rule = side(d, upper);
+  const bool flows = rule.passes(phase) || rule.inflow(phase) != 0.0;
+  for (int c = 0; c < grid_.dim; ++c) {
+    Field& v = u[c];
+    if (c == d) {
+      // the faces beyond the side
+      const std::ptrdiff_t face = upper ? l.n[d] * s : 0;
+      for_side(l, d, [&](std::ptrdiff_t line) {
+        v[line + face + out] = flows ? v[line + face] : -v[line + face - out];
+        if (!upper) v[line + face + 2 * out] = flows ? v[line + face] : -v[line + face - 2 * out];
+      });
+      continue;
+    }
+    const std::ptrdiff_t inside = upper ? (l.n[d] - 1) * s : 0;
+    const double share = rule.tangent(phase).share, shift = rule.tangent(phase).shift[c];
+    for_side(l, d, [&](std::ptrdiff_t line) {
+      for (int g = 1; g <= l.ghost[d]; ++g) v[line + inside + g * out] = shift + share * v[line + inside];
+    });
+  }
 }
 
 void Boundary::fill_velocity(FaceField& u, Phase phase) const {
@@ -49,40 +138,10 @@ void Boundary::fill_velocity(FaceField& u, Phase phase) const {
   for (int c = 0; c < grid_.dim; ++c) communicator_.exchange(l, u[c].data());
   for (int d = 0; d < grid_.dim; ++d) {
     if (l.periodic[d]) continue;
-    const std::ptrdiff_t s = l.stride[d];
-    const auto is_open = [&](int upper) {
-      return sides_[2 * d + upper].kind == SideKind::open && phase == Phase::fluid;
-    };
-    // Both closed faces first, then the upper ghosts: with one cell between the sides the lower ones mirror
+    // Both sides' faces first, then the upper ghosts: with one cell between the sides the lower ones mirror
     // those.
-    for (int upper = 0; upper < 2; ++upper) {
-      if (is_open(upper)) continue;
-      const std::ptrdiff_t face = upper ? l.n[d] * s : 0;
-      for_side(l, d, [&](std::ptrdiff_t line) { u[d][line + face] = 0.0; });
-    }
-    for (int upper = 1; upper >= 0; --upper) {
-      const Side& side = sides_[2 * d + upper];
-      const PhaseWall& wall = phase == Phase::fluid ? side.fluid : side.solid;
-      const bool open = is_open(upper);
-      for (int c = 0; c < grid_.dim; ++c) {
-        Field& v = u[c];
-        if (c == d) {
-          // the faces beyond the side
-          const std::ptrdiff_t face = upper ? l.n[d] * s : 0, out = upper ? s : -s;
-          for_side(l, d, [&](std::ptrdiff_t line) {
-            v[line + face + out] = open ? v[line + face] : -v[line + face - out];
-            if (!upper) v[line + face + 2 * out] = -v[line + face - 2 * out];
-          });
-          continue;
-        }
-        const std::ptrdiff_t inside = upper ? (l.n[d] - 1) * s : 0, out = upper ? s : -s;
-        const double sign = side.kind == SideKind::wall && wall.kind == WallKind::no_slip ? -1.0 : 1.0;
-        const double shift = sign < 0.0 ? 2.0 * side.velocity[c] : 0.0;
-        for_side(l, d, [&](std::ptrdiff_t line) {
-          for (int g = 1; g <= l.ghost[d]; ++g) v[line + inside + g * out] = shift + sign * v[line + inside];
-        });
-      }
-    }
+    fill_sides(u, d, phase);
+    for (const bool upper : {true, false}) fill_beyond(u, d, upper, phase);
   }
 }
 

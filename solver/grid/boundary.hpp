@@ -1,4 +1,4 @@
-// Ghost values and closed faces at the sides of the tank.
+// Ghost values and given faces at the sides of the tank.
 #pragma once
 
 #include "solver/grid/communicator.hpp"
@@ -6,36 +6,42 @@
 
 namespace granvof {
 
-enum class Phase { fluid, solid };
-
 class Boundary {
  public:
-  Boundary(const Grid& grid, const Scene& scene, const Communicator& communicator)
-      : grid_(grid), sides_(scene.sides), communicator_(communicator) {}
+  Boundary(const Grid& grid, const Scene& scene, const Communicator& communicator);
 
-  // Zero normal gradient on closed sides; at an open top the ghost is `beyond_open_top` where that is given.
+  // Zero normal gradient; `beyond` where given on sides that pass the fluid.
   void fill_scalar(Field& f) const;
-  void fill_scalar(Field& f, double beyond_open_top) const;
-  // Zero normal gradient on closed sides; P_c = 0 on the open top itself (ghost = minus the cell).
+  void fill_scalar(Field& f, double beyond) const;
+  // What the sides have beyond them, else zero normal gradient.
+  void fill_solid_fraction(Field& f_s) const;
+  void fill_liquid_share(Field& alpha) const;
+  // Zero normal gradient on sides where the fluid's velocity is given; on those that pass it the side's own
+  // pressure, on the side itself (ghost = twice that minus the cell), or an increment of zero.
   void fill_pressure(Field& p) const;
-  // Normal velocity zero on closed sides; tangential ghosts by the wall's kind (no-slip: the wall's velocity
-  // on the face; slip and Coulomb: no gradient, Coulomb stress is the friction operator's); open top: no
-  // gradient.
+  void fill_pressure_increment(Field& p) const;
+  // The pressure on the faces of a side, at the index of the first cell beyond it; null where all are zero.
+  const double* side_pressure() const { return has_pressure_ ? side_pressure_.data() : nullptr; }
+  // Faces of a side: the given velocity (zero on closed ones), or that of grains that leave. Ghosts by the
+  // side's tangent; no normal gradient where a phase passes.
   void fill_velocity(FaceField& u, Phase phase) const;
 
   // Refreshes only the ghosts of periodic directions.
   void exchange(Field& f) const { communicator_.exchange(grid_.cells, f.data()); }
   void exchange(double* values) const { communicator_.exchange(grid_.cells, values); }
 
-  const Side& side(int direction, int upper) const { return sides_[2 * direction + upper]; }
+  const SideRule& side(int direction, bool upper) const { return grid_.side(direction, upper); }
 
  private:
   template <typename Rule>
   void fill_cells(Field& f, Rule&& rule) const;
+  void fill_sides(FaceField& u, int d, Phase phase) const;
+  void fill_beyond(FaceField& u, int d, bool upper, Phase phase) const;
 
   const Grid& grid_;
-  std::array<Side, 6> sides_;
   const Communicator& communicator_;
+  Field side_pressure_;
+  bool has_pressure_ = false;
 };
 
 }  // namespace granvof

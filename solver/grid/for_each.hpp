@@ -16,6 +16,11 @@ struct Range {
   std::array<int, 3> lower{0, 0, 0};
   std::array<int, 3> upper{1, 1, 1};
   static Range all(const Layout& l) { return {{0, 0, 0}, l.n}; }
+  bool contains(const std::array<int, 3>& at) const {
+    for (int d = 0; d < 3; ++d)
+      if (at[d] < lower[d] || at[d] >= upper[d]) return false;
+    return true;
+  }
   bool operator==(const Range&) const = default;
 };
 

@@ -2,22 +2,42 @@
 
 namespace granvof {
 
-Grid::Grid(const Scene& scene) {
-  dim = scene.dimensions;
-  h = scene.grid.spacing;
+namespace {
+
+Layout layout_of(const Scene& scene) {
   std::array<int, 3> n = scene.grid.cells, ghost{};
   std::array<bool, 3> periodic{};
-  for (int d = 0; d < dim; ++d) {
+  for (int d = 0; d < scene.dimensions; ++d) {
     ghost[d] = ghost_layers;
-    periodic[d] = scene.sides[2 * d].kind == SideKind::periodic;
+    periodic[d] = side_rule(scene, 2 * d).joined;
   }
-  if (dim == 2) {
-    n[2] = 1;
-    h[2] = scene.tank[2];
-  }
-  cells = Layout::make(n, ghost, periodic);
+  if (scene.dimensions == 2) n[2] = 1;
+  return Layout::make(n, ghost, periodic);
+}
+
+}  // namespace
+
+Grid::Grid(const Scene& scene)
+    : dim(scene.dimensions),
+      cells(layout_of(scene)),
+      h(scene.grid.spacing),
+      obstacles(cells, dim, h, scene.obstacles) {
+  for (int side = 0; side < 6; ++side) sides[side] = side_rule(scene, side);
+  if (dim == 2) h[2] = scene.tank[2];
   cell_volume = h[0] * h[1] * h[2];
-  open_top = scene.sides[top].kind == SideKind::open;
+}
+
+bool Grid::has_whole_columns() const {
+  bool only_the_top = obstacles.none();
+  for_each_open_side([&](int d, bool upper) { only_the_top = only_the_top && d == 1 && upper; });
+  return only_the_top;
+}
+
+bool Grid::sealed() const {
+  for (int d = 0; d < dim; ++d)
+    for (const bool upper : {false, true})
+      if (side(d, upper).passes_fluid) return false;
+  return true;
 }
 
 Range Grid::cells_and_ghosts(int layers) const {
@@ -37,7 +57,29 @@ Range Grid::inner_faces(int d) const {
 
 Range Grid::fluid_faces(int d) const {
   Range r = inner_faces(d);
-  if (d == 1 && open_top) r.upper[d] += 1;
+  if (side(d, false).passes_fluid) r.lower[d] -= 1;
+  if (side(d, true).passes_fluid) r.upper[d] += 1;
+  return r;
+}
+
+Range Grid::flux_faces(int d) const {
+  Range r = inner_faces(d);
+  if (side(d, false).is_open()) r.lower[d] -= 1;
+  if (side(d, true).is_open()) r.upper[d] += 1;
+  return r;
+}
+
+Range Grid::side_faces(int d, bool upper) const {
+  Range r = all_cells();
+  r.lower[d] = upper ? cells.n[d] : 0;
+  r.upper[d] = r.lower[d] + 1;
+  return r;
+}
+
+Range Grid::side_cells(int d, bool upper) const {
+  Range r = all_cells();
+  r.lower[d] = upper ? cells.n[d] - 1 : 0;
+  r.upper[d] = r.lower[d] + 1;
   return r;
 }
 

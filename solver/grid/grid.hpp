@@ -7,6 +7,8 @@
 
 #include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
+#include "solver/grid/obstacles.hpp"
+#include "solver/grid/sides/side_rule.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
@@ -14,22 +16,43 @@ namespace granvof {
 inline constexpr int ghost_layers = 2;  // the widest stencil (limited upwind, CICSAM) looks two cells upwind
 
 struct Grid {
-  int dim = 2;               // computed directions; a 2D grid stores one layer in z and never touches it
-  Layout cells;              // layout shared by cell and face fields
-  Vec3 h{};                  // spacing [m]
-  double cell_volume = 0.0;  // [m3]; in 2D times the tank's depth
-  bool open_top = false;     // the uppermost y-faces are open to the fluid
+  int dim = 2;                    // computed directions; a 2D grid stores one layer in z and never touches it
+  Layout cells;                   // layout shared by cell and face fields
+  Vec3 h{};                       // spacing [m]
+  double cell_volume = 0.0;       // [m3]; in 2D times the tank's depth
+  std::array<SideRule, 6> sides;  // indexed by SideIndex
+  Obstacles obstacles;
 
   explicit Grid(const Scene& scene);
+
+  // Every column of cells is open from the floor to the top, and nothing flows through other sides than that.
+  bool has_whole_columns() const;
 
   std::ptrdiff_t stride(int d) const { return cells.stride[d]; }
   Range all_cells() const { return Range::all(cells); }
   // Cells and `layers` ghosts in every computed direction.
   Range cells_and_ghosts(int layers) const;
-  // Faces of direction d that are not on a closed side: where the solid velocity is unknown.
+  const SideRule& side(int d, bool upper) const { return sides[2 * d + (upper ? 1 : 0)]; }
+  // No side passes the fluid: its volume has nowhere to go, and P_c no level of its own.
+  bool sealed() const;
+
+  // Faces of direction d that are on no side: where the solid velocity is unknown.
   Range inner_faces(int d) const;
-  // The same for the fluid, the faces of an open top included.
+  // The same for the fluid, the faces of sides that pass it included.
   Range fluid_faces(int d) const;
+  // All faces that either phase may pass: those of the fluid, and of sides where its velocity is given.
+  Range flux_faces(int d) const;
+  // Faces of one side of direction d.
+  Range side_faces(int d, bool upper) const;
+  // The cells along it.
+  Range side_cells(int d, bool upper) const;
+  // visit(d, upper) for every side through which something flows.
+  template <typename Visit>
+  void for_each_open_side(Visit&& visit) const {
+    for (int d = 0; d < dim; ++d)
+      for (const bool upper : {false, true})
+        if (side(d, upper).is_open()) visit(d, upper);
+  }
   // Faces of direction d as a box of their own, in the memory of the cells' layout: one more than cells
   // across a side.
   Layout face_layout(int d) const;

@@ -12,6 +12,8 @@ Aperture::Aperture(const Grid& grid, const Scene& scene) : grid_(grid), gate_(sc
     Range r = grid.cells.periodic[d] ? grid.all_faces(d) : grid.fluid_faces(d);
     for_each(grid.cells, r, [&](std::ptrdiff_t c) { open[c] = 1.0; });
   }
+  for (int d = 0; d < grid.dim; ++d)
+    for (const std::ptrdiff_t face : grid.obstacles.faces(d)) open_[d][face] = 0.0;
   if (gate_) {
     const int n = grid.cells.n[0];
     const int nearest = static_cast<int>(std::lround(gate_->position / grid.h[0]));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/operators/mixture.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -21,7 +22,7 @@ double ramp(double x, double end) {
 }
 
 bool closed_end(const Grid& grid, bool upper) {
-  return !grid.cells.periodic[vertical] && !(upper && grid.open_top);
+  return grid.side(vertical, upper).bears_grains;
 }
 
 Range row_of_cells(const Grid& grid, int j, int ghosts) {
@@ -37,30 +38,34 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
                        const Field& p_s) {
   const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
   const double packed = scene.contact.solid_fraction_min;
-  const double half = 0.5 * scene.gravity * grid.h[vertical];
+  const double half = 0.5 * normal_gravity(scene) * grid.h[vertical];
   const double *f = f_s.data(), *a = alpha.data(), *p = p_s.data();
   double *pressure = resting.data(), *rest = at_rest.data(), *hold = held.data(), *r = support_.data();
   resting.fill(0.0);
   at_rest.fill(0.0);
   held.fill(0.0);
+  const int n = grid.cells.n[vertical];
+  const char* solid = grid.obstacles.solid();
   for (const bool light : {false, true}) {
     if (light ? rho_s >= std::max(rho_l, rho_g) : rho_s <= std::min(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
     const double end = closed_end(grid, light) ? 1.0 : 0.0;
-    const int n = grid.cells.n[vertical];
     for (int step = 0; step < n; ++step) {
       const bool first = step == 0;
       for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
         const std::ptrdiff_t b = c + below, above = c - below;
         const double own = std::min(f[c], packed), bare = own - f[above];
         const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
-        r[c] = first ? end : std::max(1.0 - ramp(packed - f[b], gap_that_yields * packed), hold[b] * r[b]);
+        const bool on_obstacle = solid != nullptr && !first && solid[b] != 0;
+        r[c] = first         ? end
+               : on_obstacle ? 1.0
+                             : std::max(1.0 - ramp(packed - f[b], gap_that_yields * packed), hold[b] * r[b]);
         // none; they press the other way; or they carry others
         if (own < least_solid_fraction || excess <= 0.0 || bare <= 0.0) return;
         hold[c] = 1.0 - ramp(f[above], falling_that_frees * own);
         const double weight = half * excess * bare * r[c];
-        const double borne = first ? weight : std::min(weight, p[b]);
+        const double borne = first || on_obstacle ? weight : std::min(weight, p[b]);
         pressure[c] = borne;
         rest[c] = sign * borne / (half * excess);
       });
@@ -76,7 +81,7 @@ void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, con
   for (const bool upper : {false, true}) {
     if (!closed_end(grid, upper)) continue;
     const std::ptrdiff_t out = upper ? grid.stride(vertical) : -grid.stride(vertical);
-    const double half = (upper ? -0.5 : 0.5) * scene.gravity * grid.h[vertical];
+    const double half = (upper ? -0.5 : 0.5) * normal_gravity(scene) * grid.h[vertical];
     const int j = upper ? grid.cells.n[vertical] - 1 : 0;
     for_each(grid.cells, row_of_cells(grid, j, 1), [=](std::ptrdiff_t c) {
       const double weight = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g));

@@ -57,7 +57,7 @@ class Closure {
     const std::ptrdiff_t s = grid_.stride(up);
     const double h = grid_.h[up];
     double *q = flux_c_[up].data(), *gain = gain_.data();
-    const int last = grid_.open_top ? n_[up] : n_[up] - 1;
+    const int last = grid_.side(up, true).passes_fluid ? n_[up] : n_[up] - 1;
     Range row = grid_.all_cells();
     for (int j = 0; j < last; ++j) {
       row.lower[up] = j;
@@ -150,7 +150,7 @@ class Closure {
 void close_continuity(const Grid& grid, const Boundary& boundary, const Aperture& aperture,
                       const FaceField& flux_s, FaceField& flux_c) {
   Closure closure(grid, flux_s, flux_c);
-  if (!grid.open_top) closure.even_out_columns(aperture);
+  if (!grid.side(up, true).passes_fluid) closure.even_out_columns(aperture);
   closure.close_columns();
   for (int d = 0; d < grid.dim; ++d) boundary.exchange(flux_c[d]);
 }

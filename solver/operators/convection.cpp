@@ -46,11 +46,13 @@ void convect(const Grid& grid, const FaceField& u, int d, const Range& faces, Di
           out[c] -= w * inv_h * difference_along(v, c, s, w);
         });
       };
-      Range inside = faces, last = faces;
-      inside.upper[d] = std::min(faces.upper[d], grid.cells.n[d]);
+      // on sides that the phase passes the ghosts end one face beyond
+      Range inside = common(faces, grid.inner_faces(d)), first = faces, last = faces;
+      first.upper[d] = inside.lower[d];
       last.lower[d] = inside.upper[d];
+      along(first, upwind_difference);
       along(inside, difference);
-      along(last, upwind_difference);  // an open top: the ghosts end one face beyond it
+      along(last, upwind_difference);
     } else {
       // the carrier component, averaged to the face of d
       for_each(grid.cells, faces, [=](std::ptrdiff_t c) {

@@ -93,13 +93,12 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
       c_c[i] = grains ? inv_det * (b[i] * f_s + (m_s + b[i]) * f_c) : together;
       c_s[i] = pushed ? inv_det * b[i] : 0.0;
     });
-    if (d == 1 && grid_.open_top) {
-      // grains stop at the open top, the fluid passes
-      Range row = grid_.fluid_faces(1);
-      row.lower[1] = grid_.cells.n[1];
-      for_each(grid_.cells, row, [=](std::ptrdiff_t i) {
+    for (const bool upper : {false, true}) {
+      // the fluid passes, the velocity of grains is given
+      if (!grid_.side(d, upper).passes_fluid) continue;
+      for_each(grid_.cells, grid_.side_faces(d, upper), [=](std::ptrdiff_t i) {
         const double f_c = 1.0 - f[i];
-        c_c[i] = f_c / (fluid[i] / dt + (f[i] >= least_solid_fraction ? b[i] : 0.0));
+        c_c[i] = open[i] * f_c / (fluid[i] / dt + (f[i] >= least_solid_fraction ? b[i] : 0.0));
         s_c[i] = s_s[i] = c_s[i] = 0.0;
       });
     }
@@ -113,7 +112,7 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
 // Fractions the fluxes carry, for the present directions of flow, and the flux response K of every face.
 void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_directions) {
   for (int d = 0; d < grid_.dim; ++d) {
-    const Range faces = grid_.fluid_faces(d);
+    const Range faces = grid_.flux_faces(d);
     if (new_directions) {
       fraction_.face_values(grid_, f_s, us_[d], d, dt, faces, f_upwind_s_[d]);
       fraction_.face_values(grid_, f_s, uc_[d], d, dt, faces, f_upwind_c_[d]);
@@ -161,20 +160,22 @@ void CoupledPressure::set_balances(double dt, const Field& f_s, const Field& p_s
       r2[c] -= solid;
     });
   }
-  if (grid_.open_top) {
-    // P_c = 0 half a cell above the uppermost cells: twice the face coefficient to a known zero
-    Range row = grid_.all_cells();
-    row.lower[1] = grid_.cells.n[1] - 1;
-    const double* k11 = k11_[1].data();
-    const std::ptrdiff_t s = grid_.stride(1);
-    for_each(grid_.cells, row, [=](std::ptrdiff_t c) { m1[c] = 2.0 * k11[c + s]; });
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (const bool upper : {false, true}) {
+      // P_c is given half a cell beyond the outermost cells: twice the face coefficient to a known zero
+      if (!grid_.side(d, upper).passes_fluid) continue;
+      const double* k11 = k11_[d].data();
+      const std::ptrdiff_t face = upper ? grid_.stride(d) : 0;
+      for_each(grid_.cells, grid_.side_cells(d, upper),
+               [=](std::ptrdiff_t c) { m1[c] += 2.0 * k11[c + face]; });
+    }
   }
 }
 
 // Velocities from the increments, fluxes, and the solid fraction the fluxes lead to.
 void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_predicted,
                               const FaceField& uc_predicted, FaceField& flux_s, FaceField& flux_c) {
-  boundary_.fill_pressure(dp_c_);
+  boundary_.fill_pressure_increment(dp_c_);
   boundary_.fill_scalar(dp_s_);
   const double *pc = dp_c_.data(), *ps = dp_s_.data();
   for (int d = 0; d < grid_.dim; ++d) {
@@ -185,7 +186,7 @@ void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_p
     const double *us_p = us_predicted[d].data(), *uc_p = uc_predicted[d].data();
     const double *phi_s = f_upwind_s_[d].data(), *phi_c = f_upwind_c_[d].data();
     double *us = us_[d].data(), *uc = uc_[d].data(), *fs = flux_s[d].data(), *fc = flux_c[d].data();
-    for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+    for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) {
       const double grad_c = (pc[c] - pc[c - s]) * inv_h, grad_s = (ps[c] - ps[c - s]) * inv_h;
       us[c] = us_p[c] - s_c[c] * grad_c - s_s[c] * grad_s;
       uc[c] = uc_p[c] - c_c[c] * grad_c - c_s[c] * grad_s;

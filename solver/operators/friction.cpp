@@ -54,7 +54,7 @@ void Friction::fit_box(const FaceInertia& inertia) {
   const Range box = box_of_grains(grid_, inertia);
   if (box == box_) return;
   box_ = box;
-  for (Field* f : {&mu_, &lambda_}) f->fill(0.0);
+  for (Field* f : {&mu_, &mu_vertical_, &lambda_}) f->fill(0.0);
   for (int p = 0; p < (grid_.dim == 2 ? 1 : 3); ++p)
     for (Field* f : {&mu_edge_[p], &shear_[p]}) f->fill(0.0);
   multigrid_.clear();
@@ -86,7 +86,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   if (is_empty(box_)) return {0, 0.0, 0.0, true};
   set_viscosity(rheology, u_strain);
   mark_faces(inertia, aperture);
-  cut_edges_beside_empty_faces(inertia);
+  cut_edges_beside_empty_faces(inertia, rheology);
 
   // Solve for the change of the guess: walls, the gate and faces without grains then enter through the
   // residual alone.

@@ -56,7 +56,8 @@ class Friction {
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
-  void cut_edges_beside_empty_faces(const FaceInertia& inertia);
+  void cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology);
+  void hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane);
   void set_own_diffusion(const FaceField& mass);
   void set_multigrids();
   FrictionForm form(const FaceField& mass) const;

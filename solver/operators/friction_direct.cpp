@@ -47,10 +47,10 @@ void FrictionDirect::for_each_strain(const Range& box, const FrictionForm& form,
   for (int j = box.lower[1]; j < box.upper[1]; ++j) {
     for (int i = box.lower[0]; i < box.upper[0]; ++i) {
       const std::ptrdiff_t c = grid_.cells.index(i, j, 0);
-      if (form.mu[c] <= 0.0) continue;
+      if (form.mu[0][c] <= 0.0) continue;
       Strain divergence{form.lambda[c]};
       for (int d = 0; d < 2; ++d) {
-        Strain stretch{2.0 * form.mu[c]};
+        Strain stretch{2.0 * form.mu[d][c]};
         for (Strain* strain : {&stretch, &divergence}) {
           add(*strain, d, c + s[d], inv_h[d]);
           add(*strain, d, c, -inv_h[d]);

@@ -17,7 +17,8 @@ namespace granvof {
 // The symmetric form sum over cells and edges of 2 mu (du_d/dx_d)^2 + lambda (div u)^2 + mu_edge shear^2 and
 // mass u^2 that friction_operator.cpp is the gradient of; arrays of the grid's layout.
 struct FrictionForm {
-  const double *mu, *lambda, *edge;     // [Pa s]
+  std::array<const double*, 2> mu;      // of a normal strain along either direction [Pa s]
+  const double *lambda, *edge;          // [Pa s]
   const double* tilting;                // see Friction::tilting; nullptr for 1
   std::array<const double*, 2> marked;  // not 0 on the unknown faces
   std::array<const double*, 2> mass;    // [kg/m3 s]

@@ -143,12 +143,10 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
   const double slowest = slowest_sliding * velocity_;
   for (int d = 0; d < grid_.dim; ++d) {
     if (grid_.cells.periodic[d]) continue;
-    for (int upper = 0; upper < 2; ++upper) {
-      const Side& side = boundary_.side(d, upper);
-      const bool no_slip = side.kind == SideKind::wall && side.solid.kind == WallKind::no_slip;
-      if (no_slip) continue;
-      const bool coulomb = side.kind == SideKind::wall && side.solid.kind == WallKind::coulomb;
-      const double mu_w = coulomb ? side.solid.friction : 0.0;
+    for (const bool upper : {false, true}) {
+      const SideRule& side = boundary_.side(d, upper);
+      const double mu_w = side.friction;
+      if (std::isinf(mu_w)) continue;
       for (int e = 0; e < grid_.dim; ++e) {
         if (e == d) continue;
         Range wall = grid_.edges(d, e);
@@ -177,18 +175,41 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
   }
 }
 
+// Grains stick to an obstacle, whose surface is half a cell from the faces beside it; of the kinetic
+// viscosity only the open cells around have one. Edges at its corners keep the whole distance.
+void Friction::hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane) {
+  const double* kinetic = rheology.kinetic_viscosity.data();
+  double* viscosity = mu_edge_[plane].data();
+  for (const Obstacles::Edge& edge : grid_.obstacles.edges(plane)) {
+    double& mu = viscosity[edge.at];
+    double sum = 0.0;
+    for (int i = 0; i < edge.cells; ++i) sum += kinetic[edge.open[i]];
+    mu += sum / edge.cells - 0.25 * sum;
+    if (edge.flat) mu *= 2.0;
+    for (int i = 0; i < edge.faces; ++i)
+      if (inertia.f_s[edge.face[i].first][edge.face[i].second] < least_solid_fraction) mu = 0.0;
+  }
+}
+
 // A face without grains carries the fluid's velocity: a contact stress on its edges would glue the bed's
 // surface to the water above.
-void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia) {
+void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology) {
   for (int d = 0; d < grid_.dim; ++d) {
     for (int e = d + 1; e < grid_.dim; ++e) {
       const double *fd = inertia.f_s[d].data(), *fe = inertia.f_s[e].data();
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
       double* edge = mu_edge_[plane_index(d, e)].data();
+      std::vector<double> on_obstacles;  // a face inside one has no grains and is no reason to let go
+      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(d, e)))
+        on_obstacles.push_back(edge[o.at]);
       for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
         const double least = std::min(std::min(fd[c], fd[c - t]), std::min(fe[c], fe[c - s]));
         edge[c] = least >= least_solid_fraction ? edge[c] : 0.0;
       });
+      std::size_t next = 0;
+      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(d, e)))
+        edge[o.at] = on_obstacles[next++];
+      hold_to_obstacles(inertia, rheology, plane_index(d, e));
     }
   }
 }

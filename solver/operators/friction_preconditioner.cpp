@@ -16,7 +16,7 @@ constexpr double share_of_the_hold = 1e-6;
 
 FrictionForm Friction::form(const FaceField& mass) const {
   const double* tilt = tilting(0, vertical);
-  return {mu_.data(),
+  return {{normal_viscosity(0), normal_viscosity(vertical)},
           lambda_.data(),
           mu_edge_[plane_index(0, vertical)].data(),
           tilt,

@@ -8,6 +8,7 @@
 #include "solver/closures/radial_distribution.hpp"
 #include "solver/operators/flux_balance.hpp"
 #include "solver/operators/mixture.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -24,16 +25,19 @@ constexpr double seed = 0.01;
 
 // The fluctuation energy 3/2 Theta of a grain cannot exceed what gravity and moving walls can give it: a fall
 // through the whole tank. P_s^EF pushes grains apart without being charged to Theta in (7), so that (7) alone
-// has no such bound. Without gravity there is none: a start may hold any Theta.
+// has no such bound. Without gravity there is none: a start may hold any Theta. Nor is there where gravity
+// acts along a periodic direction: such a fall has no end.
 double largest_granular_temperature(const Scene& scene) {
-  if (scene.gravity <= 0.0) return std::numeric_limits<double>::infinity();
+  const Vec3 g = confined_gravity(scene);
+  if (scene.gravity <= 0.0 || g != gravity_of(scene)) return std::numeric_limits<double>::infinity();
   double wall_speed_squared = 0.0;
   for (const Side& side : scene.sides) {
     double square = 0.0;
     for (const double v : side.velocity) square += v * v;
-    wall_speed_squared = std::max(wall_speed_squared, square);
+    wall_speed_squared = std::max({wall_speed_squared, square, side.inflow.speed * side.inflow.speed});
   }
-  return 2.0 / 3.0 * (scene.gravity * scene.tank[1] + 0.5 * wall_speed_squared);
+  return 2.0 / 3.0 *
+         (std::fabs(g[1]) * scene.tank[1] + std::fabs(g[0]) * scene.tank[0] + 0.5 * wall_speed_squared);
 }
 
 }  // namespace

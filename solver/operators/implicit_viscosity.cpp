@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/operators/edge_mean.hpp"
+#include "solver/operators/strain.hpp"
 #include "solver/scene/scales.hpp"
 
 namespace granvof {
@@ -58,8 +59,15 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
     if (e == d) {
       couple([=](std::ptrdiff_t c) { return 2.0 * mu[c - s]; },
              [=](std::ptrdiff_t c) { return 2.0 * mu[c]; });
+      if (!grid_.cells.periodic[d]) {  // no gradient beyond a lower side that the fluid passes
+        Range first = Range::all(layout);
+        first.upper[d] = 1;
+        for_each(layout, first, [=](std::ptrdiff_t c) { a[c] = 0.0; });
+      }
     } else {
       for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) { edge[c] = edge_mean(mu, c, s, t); });
+      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(std::min(d, e), std::max(d, e))))
+        if (o.flat) edge[o.at] *= 2.0;  // half a cell away
       boundary_.exchange(edge_);
       couple([=](std::ptrdiff_t c) { return edge[c]; }, [=](std::ptrdiff_t c) { return edge[c + t]; });
       set_sides(d, e, edge);
@@ -67,22 +75,22 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
   }
 }
 
-// The sides of direction e beside component d: a no-slip wall half a cell away, no gradient elsewhere.
+// The sides of direction e beside component d: what the ghosts are by the side's tangent.
 void ImplicitViscosity::set_sides(int d, int e, const double* edge) {
   if (grid_.cells.periodic[e]) return;
   const Layout layout = grid_.face_layout(d);
-  const double twice = 2.0 / (grid_.h[e] * grid_.h[e]);
   double *a = coefficient_[e].data(), *diagonal = diagonal_.data();
   const double* open = open_.data();
-  for (int upper = 0; upper < 2; ++upper) {
+  for (const bool upper : {false, true}) {
     Range row = Range::all(layout);
     row.lower[e] = upper ? layout.n[e] - 1 : 0;
     row.upper[e] = row.lower[e] + 1;
     if (!upper) for_each(layout, row, [=](std::ptrdiff_t c) { a[c] = 0.0; });
-    const Side& side = boundary_.side(e, upper);
-    if (side.kind != SideKind::wall || side.fluid.kind != WallKind::no_slip) continue;
+    const double share = boundary_.side(e, upper).fluid.share;
+    if (share == 1.0) continue;
+    const double held = (1.0 - share) / (grid_.h[e] * grid_.h[e]);
     const std::ptrdiff_t at = upper ? grid_.stride(e) : 0;
-    for_each(layout, row, [=](std::ptrdiff_t c) { diagonal[c] += twice * open[c] * edge[c + at]; });
+    for_each(layout, row, [=](std::ptrdiff_t c) { diagonal[c] += held * open[c] * edge[c + at]; });
   }
 }
 

@@ -25,7 +25,8 @@ InterfaceTransport::InterfaceTransport(const Grid& grid, const Scene& scene, con
       gain_(grid),
       loss_(grid),
       slope_(grid),
-      correction_(grid) {
+      correction_(grid),
+      passed_(grid) {
   if (scene.numerics.interface_scheme == InterfaceScheme::plic) plic_.emplace(grid, boundary);
 }
 
@@ -111,9 +112,9 @@ void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
   }
 }
 
-double InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c,
-                                   Field& f_c_end) {
-  boundary_.fill_scalar(alpha, 0.0);
+void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c,
+                                 Field& f_c_end) {
+  boundary_.fill_liquid_share(alpha);
   interface_normal(alpha);
   double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] = a[c] * fc[c]; });
@@ -124,36 +125,40 @@ double InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& al
   subtract_divergence(grid_, dt, flux_c, f_c_end);
   for (int d = 0; d < grid_.dim; ++d) face_alpha(d, alpha, flux_c);
   limit_corrections(dt, f_c_end);
-  double left = 0.0;
-  if (grid_.open_top) {
-    Range row = grid_.all_cells();
-    row.lower[1] = grid_.cells.n[1] - 1;
-    const double *q = flux_c[1].data(), *corr = correction_[1].data();
-    const std::ptrdiff_t s = grid_.stride(1);
-    left = dt * grid_.cell_volume / grid_.h[1] * sum_over(grid_.cells, row, [=](std::ptrdiff_t c) {
-             return q[c + s] * (q[c + s] > 0.0 ? a[c] : a[c + s]) + corr[c + s];
-           });
-  }
+  grid_.for_each_open_side([&](int d, bool upper) {
+    const double *q = flux_c[d].data(), *corr = correction_[d].data();
+    double* liquid = passed_.through[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    const Range faces = grid_.side_faces(d, upper);
+    passed_.left[2 * d + (upper ? 1 : 0)] += (upper ? dt : -dt) * grid_.cell_volume / grid_.h[d] *
+                                             sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
+                                               return q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c];
+                                             });
+    for_each(grid_.cells, faces,
+             [=](std::ptrdiff_t c) { liquid[c] += dt * (q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c]); });
+  });
   subtract_divergence(grid_, dt, correction_, liquid_);
   const double* fc_end = f_c_end.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     a[c] = std::clamp(fl[c] / fc_end[c], 0.0, 1.0);  // within bounds already but for rounding
     fc[c] = fc_end[c];
   });
-  return left;
 }
 
-double InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
-                                   Field& alpha_new) {
-  if (plic_) return plic_->advance(dt, alpha, f_s, flux_c, alpha_new);
+const SideLiquid& InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s,
+                                              const FaceField& flux_c, Field& alpha_new) {
+  passed_.clear(grid_);
+  if (plic_) {
+    plic_->advance(dt, alpha, f_s, flux_c, alpha_new, passed_);
+    return passed_;
+  }
   const int parts = substeps(dt, alpha, f_s, flux_c);
   alpha_new = alpha;
   const double* f = f_s.data();
   double* fc = f_c_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
-  double left = 0.0;
-  for (int part = 0; part < parts; ++part) left += substep(dt / parts, flux_c, alpha_new, f_c_, f_c_end_);
-  return left;
+  for (int part = 0; part < parts; ++part) substep(dt / parts, flux_c, alpha_new, f_c_, f_c_end_);
+  return passed_;
 }
 
 }  // namespace granvof

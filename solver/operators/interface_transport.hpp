@@ -19,15 +19,16 @@ class InterfaceTransport {
   InterfaceTransport(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // In: alpha and f_s of the old level (two ghost layers filled), flux_c [m/s]. Out: alpha of the new level.
-  // Returns the liquid volume [m3] that left through the open top.
-  double advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new);
+  // Returns what passed the sides, valid until the next call.
+  const SideLiquid& advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
+                            Field& alpha_new);
 
  private:
   int substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c);
   void interface_normal(const Field& alpha);
   void face_alpha(int d, const Field& alpha, const FaceField& flux_c);
   void limit_corrections(double dt, const Field& f_c_end);
-  double substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c, Field& f_c_end);
+  void substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c, Field& f_c_end);
 
   const Grid& grid_;
   const Scene& scene_;
@@ -35,6 +36,7 @@ class InterfaceTransport {
   Field liquid_, f_c_, f_c_end_, courant_, gain_, loss_;
   FaceField slope_;       // grad alpha, component by component
   FaceField correction_;  // CICSAM flux minus upwind flux [m/s]
+  SideLiquid passed_;
   std::optional<PlicTransport> plic_;
 };
 

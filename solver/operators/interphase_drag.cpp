@@ -72,6 +72,7 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
       beta[c] = share * closures::drag_coefficient(law, hindering, 0.5 * (a[c] + a[c - s]), std::sqrt(square),
                                                    gas, liquid, d_s);
     });
+    for (const std::ptrdiff_t face : grid_.obstacles.faces(d)) beta[face] = 0.0;  // no grains pass
     boundary.exchange(beta_[d]);
   }
   if (scene_.model.granular_temperature == TemperatureModel::off) return;

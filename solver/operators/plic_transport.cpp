@@ -70,17 +70,16 @@ std::array<double, 2> leaving(const Cut& cut, int d, double a, const std::array<
 PlicTransport::PlicTransport(const Grid& grid, const Boundary& boundary)
     : grid_(grid), boundary_(boundary), f_c_(grid), flux_(grid) {}
 
-// One direction: alpha and f_c_ are both brought over the sweep. Returns the liquid that left through the
-// top.
-double PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alpha) {
-  boundary_.fill_scalar(alpha, 0.0);
+// One direction: alpha and f_c_ are both brought over the sweep.
+void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alpha, SideLiquid& passed) {
+  boundary_.fill_liquid_share(alpha);
   boundary_.fill_scalar(f_c_);
   const std::ptrdiff_t s = grid_.stride(d);
   const double dt_h = dt / grid_.h[d];
   double *a = alpha.data(), *fc = f_c_.data(), *liquid = flux_.data();
   const double* q = flux_c[d].data();
   flux_.fill(0.0);
-  for_each(grid_.cells, grid_.fluid_faces(d), [=, this](std::ptrdiff_t c) {
+  for_each(grid_.cells, grid_.flux_faces(d), [=, this](std::ptrdiff_t c) {
     const bool forward = q[c] > 0.0;
     const std::ptrdiff_t donor = forward ? c - s : c;
     const double of_donor = dt_h / fc[donor];  // a flux as the part of the donor that it takes
@@ -100,15 +99,19 @@ double PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& al
     fc[c] -= dt_h * (q[c + s] - q[c]);
     a[c] = std::clamp(held / fc[c], 0.0, 1.0);  // within bounds already but for rounding
   });
-  if (d != 1 || !grid_.open_top) return 0.0;
-  Range top = grid_.all_cells();
-  top.lower[1] = grid_.cells.n[1] - 1;
-  return dt_h * grid_.cell_volume *
-         sum_over(grid_.cells, top, [=](std::ptrdiff_t c) { return liquid[c + s]; });
+  for (const bool upper : {false, true}) {
+    if (!grid_.side(d, upper).is_open()) continue;
+    const Range faces = grid_.side_faces(d, upper);
+    passed.left[2 * d + (upper ? 1 : 0)] +=
+        (upper ? dt_h : -dt_h) * grid_.cell_volume *
+        sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) { return liquid[c]; });
+    double* through = passed.through[d].data();
+    for_each(grid_.cells, faces, [=](std::ptrdiff_t c) { through[c] += dt * liquid[c]; });
+  }
 }
 
-double PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
-                              Field& alpha_new) {
+void PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
+                            Field& alpha_new, SideLiquid& passed) {
   const double courant = outflow_courant(grid_, dt, f_s, true, 0.0, flux_c);
   const int parts = std::max(1, static_cast<int>(std::ceil(courant / largest_courant)));
   const double part = dt / parts;
@@ -116,13 +119,11 @@ double PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, c
   const double* f = f_s.data();
   double* fc = f_c_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
-  double left = 0.0;
   for (int n = 0; n < parts; ++n) {
-    for (int d = 0; d < grid_.dim - 1; ++d) left += sweep(d, 0.5 * part, flux_c, alpha_new);
-    left += sweep(grid_.dim - 1, part, flux_c, alpha_new);
-    for (int d = grid_.dim - 2; d >= 0; --d) left += sweep(d, 0.5 * part, flux_c, alpha_new);
+    for (int d = 0; d < grid_.dim - 1; ++d) sweep(d, 0.5 * part, flux_c, alpha_new, passed);
+    sweep(grid_.dim - 1, part, flux_c, alpha_new, passed);
+    for (int d = grid_.dim - 2; d >= 0; --d) sweep(d, 0.5 * part, flux_c, alpha_new, passed);
   }
-  return left;
 }
 
 }  // namespace granvof

@@ -12,6 +12,7 @@
 
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/plane_in_cell.hpp"
+#include "solver/operators/side_liquid.hpp"
 
 namespace granvof {
 
@@ -20,11 +21,12 @@ class PlicTransport {
   PlicTransport(const Grid& grid, const Boundary& boundary);
 
   // In: alpha and f_s of the old level (ghosts filled), flux_c [m/s]. Out: alpha of the new level.
-  // Returns the liquid volume [m3] that left through the open top.
-  double advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new);
+  // What passes the sides is added to `passed`.
+  void advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new,
+               SideLiquid& passed);
 
  private:
-  double sweep(int d, double dt, const FaceField& flux_c, Field& alpha);
+  void sweep(int d, double dt, const FaceField& flux_c, Field& alpha, SideLiquid& passed);
 
   const Grid& grid_;
   const Boundary& boundary_;

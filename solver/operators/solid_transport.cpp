@@ -24,7 +24,7 @@ void keep_solid_positive(const Grid& grid, const Boundary& boundary, double dt, 
   for (int d = 0; d < grid.dim; ++d) {
     double *qs = flux_s[d].data(), *qc = flux_c[d].data();
     const std::ptrdiff_t s = grid.stride(d);
-    for_each(grid.cells, grid.inner_faces(d), [=](std::ptrdiff_t c) {
+    for_each(grid.cells, grid.flux_faces(d), [=](std::ptrdiff_t c) {
       const double kept = qs[c] * (qs[c] > 0.0 ? r[c - s] : r[c]);
       qc[c] += qs[c] - kept;
       qs[c] = kept;
@@ -37,6 +37,16 @@ void keep_solid_positive(const Grid& grid, const Boundary& boundary, double dt, 
 void transport_solid(const Grid& grid, double dt, const Field& f_s, const FaceField& flux_s, Field& f_s_new) {
   f_s_new = f_s;
   subtract_divergence(grid, dt, flux_s, f_s_new);
+}
+
+double solid_left(const Grid& grid, double dt, const FaceField& flux_s) {
+  double left = 0.0;
+  grid.for_each_open_side([&](int d, bool upper) {
+    const double* q = flux_s[d].data();
+    left += (upper ? dt : -dt) * grid.cell_volume / grid.h[d] *
+            sum_over(grid.cells, grid.side_faces(d, upper), [=](std::ptrdiff_t c) { return q[c]; });
+  });
+  return left;
 }
 
 void transport_with_grains(const Grid& grid, double dt, const Field& f_s, const Field& f_s_new,

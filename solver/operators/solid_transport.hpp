@@ -14,6 +14,9 @@ void keep_solid_positive(const Grid& grid, const Boundary& boundary, double dt, 
 // f_s^{n+1} = f_s^n - dt div(flux_s). Conservative to rounding.
 void transport_solid(const Grid& grid, double dt, const Field& f_s, const FaceField& flux_s, Field& f_s_new);
 
+// Solid volume that leaves through the sides in dt, net [m3].
+double solid_left(const Grid& grid, double dt, const FaceField& flux_s);
+
 // Eq (25): phi of the solid, in [0, 1], upwind along flux_s; phi keeps its old value where no grains are
 // left. One ghost layer of phi must be filled.
 void transport_with_grains(const Grid& grid, double dt, const Field& f_s, const Field& f_s_new,

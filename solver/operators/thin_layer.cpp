@@ -1,14 +1,15 @@
 #include "solver/operators/thin_layer.hpp"
 
+#include <cmath>
+
 #include "solver/closures/contact_friction.hpp"
 
 namespace granvof {
 
 void arrest_thin_layers(const Grid& grid, const Scene& scene, const Field& f_s, Field& friction) {
   friction.fill(0.0);
-  const Side& floor = scene.sides[bottom];
-  if (floor.kind != SideKind::wall || floor.solid.kind != WallKind::no_slip || !scene.model.contact_friction)
-    return;
+  const SideRule& floor = grid.side(1, false);
+  if (!floor.bears_grains || !std::isinf(floor.friction) || !scene.model.contact_friction) return;
   const double mu_s = scene.solid.friction, mu_2 = scene.contact.fast_friction, d_s = scene.solid.diameter;
   const double length = scene.contact.stop_length, packed = scene.contact.solid_fraction_min, h = grid.h[1];
   const double* f = f_s.data();

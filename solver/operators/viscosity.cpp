@@ -27,8 +27,14 @@ double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, co
     mu[c] = (1.0 - f[c]) * (mixture(a[c], mu_l, mu_g) + eddy);
   });
   boundary.fill_scalar(viscosity_);
-  return max_over(grid_.cells, grid_.all_cells(), 0.0,
-                  [=](std::ptrdiff_t c) { return mu[c] / ((1.0 - f[c]) * mixture(a[c], rho_l, rho_g)); });
+  const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
+    return mu[c] / ((1.0 - f[c]) * mixture(a[c], rho_l, rho_g));
+  });
+  if (!grid_.obstacles.none()) {
+    grid_.obstacles.extend(mu);
+    boundary.fill_scalar(viscosity_);
+  }
+  return largest;
 }
 
 void FluidViscosity::add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d,
@@ -69,6 +75,8 @@ FluidViscosity::Power FluidViscosity::power(const Boundary& boundary) const {
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
       power.dissipation +=
           sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) { return edge_mean(mu, c, s, t) * g[c] * g[c]; });
+      for (const Obstacles::Edge& edge : grid_.obstacles.edges(plane_index(d, e)))  // half of it is fluid
+        if (edge.flat) power.dissipation -= 0.5 * edge_mean(mu, edge.at, s, t) * g[edge.at] * g[edge.at];
     }
   }
   power.dissipation *= grid_.cell_volume;

@@ -14,7 +14,7 @@ namespace granvof {
 
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // The last line of the file, behind the HDF5 data, which HDF5 ignores: a checksum of all bytes before it
 // (64-bit FNV-1a). It is compared before HDF5 sees the file, since HDF5 1.10 neither notices all damage nor

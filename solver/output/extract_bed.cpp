@@ -50,8 +50,10 @@ Value p_base(const CellFields& fields, const Scene& scene) {
   const auto share_z = share_under_bed(fields, scene, 2);
   double weight = 0.0;
   double sum = 0.0;
+  const std::vector<bool> solid = obstacle_cells(fields, scene);
   for (int k = 0; k < fields.cells[2]; ++k) {
     for (int i = 0; i < fields.cells[0]; ++i) {
+      if (!solid.empty() && solid[cell_index(fields, i, 0, k)]) continue;
       const double share = share_x[static_cast<std::size_t>(i)] * share_z[static_cast<std::size_t>(k)];
       weight += share;
       sum += share * fields.p_c[cell_index(fields, i, 0, k)];

@@ -13,8 +13,9 @@ constexpr double interface_alpha = 0.5;
 
 // Height of alpha = 0.5 in the columns for which use(i, k) holds.
 template <class Use>
-Value level(const CellFields& fields, Use use) {
+Value level(const CellFields& fields, const Scene& scene, Use use) {
   std::vector<double> share;
+  const std::vector<bool> solid = obstacle_cells(fields, scene);
   for (int j = 0; j < fields.cells[1]; ++j) {
     double liquid = 0.0;
     double fluid = 0.0;
@@ -22,12 +23,14 @@ Value level(const CellFields& fields, Use use) {
       for (int i = 0; i < fields.cells[0]; ++i) {
         if (!use(i, k)) continue;
         const auto c = cell_index(fields, i, j, k);
+        if (!solid.empty() && solid[c]) continue;
         liquid += fields.alpha[c] * (1.0 - fields.f_s[c]);
         fluid += 1.0 - fields.f_s[c];
       }
     }
-    if (fluid <= 0.0) return std::nullopt;
-    share.push_back(liquid / fluid);
+    if (fluid <= 0.0 && solid.empty()) return std::nullopt;
+    // A row that obstacles fill divides nothing: it counts as the one below.
+    share.push_back(fluid > 0.0 ? liquid / fluid : share.empty() ? 1.0 : share.back());
   }
   return last_crossing(share, fields.spacing[1], interface_alpha);
 }
@@ -42,15 +45,15 @@ double column_height(const CellFields& fields, int i) {
 
 }  // namespace
 
-Value interface_height(const CellFields& fields, const Scene&) {
-  return level(fields, [](int, int) { return true; });
+Value interface_height(const CellFields& fields, const Scene& scene) {
+  return level(fields, scene, [](int, int) { return true; });
 }
 
 Value interface_height_outside(const CellFields& fields, const Scene& scene) {
   if (!scene.bed) return std::nullopt;
   const auto share_x = share_under_bed(fields, scene, 0);
   const auto share_z = share_under_bed(fields, scene, 2);
-  return level(fields, [&](int i, int k) {
+  return level(fields, scene, [&](int i, int k) {
     return share_x[static_cast<std::size_t>(i)] * share_z[static_cast<std::size_t>(k)] == 0.0;
   });
 }

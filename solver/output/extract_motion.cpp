@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/output/measures.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof::scalar {
 
@@ -47,16 +48,22 @@ double kinetic_energy(const CellFields& fields, const Scene& scene, Share share,
 }
 
 double potential_energy(const CellFields& fields, const Scene& scene, Share share, double density) {
-  double sum = 0.0;  // of share times height in cells
+  const Vec3 g = confined_gravity(scene);
+  double height = 0.0, along = 0.0;  // sums of share times y and x in cells
   std::size_t c = 0;
   for (int k = 0; k < fields.cells[2]; ++k) {
     for (int j = 0; j < fields.cells[1]; ++j) {
       double row = 0.0;
-      for (int i = 0; i < fields.cells[0]; ++i) row += share(fields, c++);
-      sum += row * (j + 0.5);
+      for (int i = 0; i < fields.cells[0]; ++i) {
+        const double part = share(fields, c++);
+        row += part;
+        along += part * (i + 0.5);
+      }
+      height += row * (j + 0.5);
     }
   }
-  return density * scene.gravity * sum * fields.spacing[1] * cell_volume(fields, scene);
+  return density * -g[1] * height * fields.spacing[1] * cell_volume(fields, scene) -
+         density * g[0] * along * fields.spacing[0] * cell_volume(fields, scene);
 }
 
 }  // namespace
@@ -98,7 +105,12 @@ Value potential_energy_liquid(const CellFields& fields, const Scene& scene) {
   return potential_energy(fields, scene, liquid_share, scene.liquid.density);
 }
 Value potential_energy_gas(const CellFields& fields, const Scene& scene) {
-  return potential_energy(fields, scene, gas_share, scene.gas.density);
+  const std::vector<bool> solid = obstacle_cells(fields, scene);
+  const double all = potential_energy(fields, scene, gas_share, scene.gas.density);
+  if (solid.empty()) return all;
+  CellFields inside = fields;  // what the cells of obstacles would hold
+  for (std::size_t c = 0; c < solid.size(); ++c) inside.f_s[c] = solid[c] ? 0.0 : 1.0;
+  return all - potential_energy(inside, scene, gas_share, scene.gas.density);
 }
 
 }  // namespace granvof::scalar

@@ -51,6 +51,24 @@ double present_threshold(const Scene& scene) {
   return 0.1 * scene.contact.solid_fraction_min;
 }
 
+std::vector<bool> obstacle_cells(const CellFields& fields, const Scene& scene) {
+  if (scene.obstacles.empty()) return {};
+  std::vector<bool> solid(fields.f_s.size(), false);
+  const auto inside = [&](const Box& box, const std::array<int, 3>& at) {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(scene.dimensions); ++d) {
+      const double centre = (at[d] + 0.5) * fields.spacing[d];
+      if (centre < box.lower[d] || centre > box.upper[d]) return false;
+    }
+    return true;
+  };
+  for (int k = 0; k < fields.cells[2]; ++k)
+    for (int j = 0; j < fields.cells[1]; ++j)
+      for (int i = 0; i < fields.cells[0]; ++i)
+        for (const Box& box : scene.obstacles)
+          if (inside(box, {i, j, k})) solid[cell_index(fields, i, j, k)] = true;
+  return solid;
+}
+
 double cell_volume(const CellFields& fields, const Scene& scene) {
   const double thickness = scene.dimensions == 2 ? scene.tank[2] / fields.cells[2] : fields.spacing[2];
   return fields.spacing[0] * fields.spacing[1] * thickness;
@@ -105,6 +123,21 @@ std::vector<double> bed_profile_along_y(const CellFields& fields, const Scene& s
     for (const double x : share_x) weight += x * z;
   }
   if (weight == 0.0) return {};
+  const std::vector<bool> solid = obstacle_cells(fields, scene);
+  for (int j = 0; j < ny && !solid.empty(); ++j) {  // over what obstacles leave of the row
+    double open = 0.0, sum = 0.0;
+    for (int k = 0; k < nz; ++k) {
+      for (int i = 0; i < nx; ++i) {
+        const std::size_t c = cell_index(fields, i, j, k);
+        if (solid[c]) continue;
+        const double share = share_x[static_cast<std::size_t>(i)] * share_z[static_cast<std::size_t>(k)];
+        open += share;
+        sum += share * fields.f_s[c];
+      }
+    }
+    profile[static_cast<std::size_t>(j)] = open > 0.0 ? sum / open : 0.0;
+  }
+  if (!solid.empty()) return profile;
   for (int k = 0; k < nz; ++k) {
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {

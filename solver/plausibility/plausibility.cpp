@@ -98,6 +98,9 @@ std::vector<Row> tank_rows() {
       row(
           "tank.gravity", "m/s2", [](const Scene& s) { return positive(s.gravity); }, Usual{1.0, 30.0},
           "from the Moon's to Jupiter's; cm/s2, or km/s2?"),
+      row(
+          "tank.inclination", "degrees", [](const Scene& s) { return positive(std::fabs(s.inclination)); },
+          Usual{0.0, 60.0}, "steeper than any chute; from the vertical?"),
   };
 }
 
@@ -130,6 +133,9 @@ std::vector<Row> wall_rows() {
     rows.push_back(row(
         name + ".velocity", "m/s", [side](const Scene& s) -> Number { return wall_speed(s.sides[side]); },
         Usual{0.0, 50.0}, "a wall that passes a laboratory in a blink; mm/s?"));
+    rows.push_back(row(
+        name + ".inflow", "m/s", [side](const Scene& s) { return positive(s.sides[side].inflow.speed); },
+        Usual{1e-6, 50.0}, "a jet that crosses a laboratory in a blink; mm/s?"));
   }
   return rows;
 }

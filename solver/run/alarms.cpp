@@ -87,7 +87,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("refused steps", static_cast<double>(counts.refused),
        std::max(few_refused, refused_share * static_cast<double>(counts.steps + counts.refused)),
        "steps are tried in vain: numerics.newton_max, cfl or dt_max do not suit the flow");
-  const double given = start_.stored() + e.walls + least_energy(scene_, start_);
+  const double given = start_.stored() + e.walls + std::max(-e.outflow, 0.0) + least_energy(scene_, start_);
   const double in_motion = e.kinetic + e.granular;
   if (in_motion > energy_that_stops * given)
     return fmt::format("blow-up: {:.3g} J in motion at t = {:.6g} s, and the run was given {:.3g} J",

@@ -51,6 +51,7 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
                   {"solid_volume", v.solid_volume},
                   {"liquid_volume", v.liquid_volume},
                   {"liquid_left", v.liquid_left},
+                  {"solid_left", v.solid_left},
                   {"solid_error", v.solid_error},
                   {"liquid_error", v.liquid_error},
                   {"solid_max", v.solid_max},
@@ -72,8 +73,8 @@ void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& c
   counters.core_seconds = saved.scalar("core_seconds");
   control.restore(saved.scalar("last_dt"));
   monitors.restore({saved.scalar("solid_volume"), saved.scalar("liquid_volume"), saved.scalar("liquid_left"),
-                    saved.scalar("solid_error"), saved.scalar("liquid_error"), saved.scalar("solid_max"),
-                    saved.scalar("solid_min")});
+                    saved.scalar("solid_left"), saved.scalar("solid_error"), saved.scalar("liquid_error"),
+                    saved.scalar("solid_max"), saved.scalar("solid_min")});
 }
 
 }  // namespace granvof

@@ -4,6 +4,7 @@
 #include "solver/closures/kinetic_theory.hpp"
 #include "solver/closures/radial_distribution.hpp"
 #include "solver/grid/for_each_row.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 // Sums over faces [J]. u, v: velocity of solid and fluid; m: inertia of the old level; 0 and 1: levels.
@@ -18,7 +19,10 @@ struct EnergyBudget::FaceWork {
   double fluid_pressure = 0.0;
   double flux_pressure = 0.0;  // the same by the fluxes: zero where continuity is solved
   double solid_pressure = 0.0;
-  double potential_out = 0.0, kinetic_out = 0.0;  // through the open top
+  // Through the sides, outwards.
+  double potential_out = 0.0, kinetic_out = 0.0, granular_out = 0.0;
+  double side_pressure = 0.0;  // by the pressure on the sides, given
+  double driving = 0.0;        // of gravity, along periodic directions, which have no potential
 };
 
 EnergyBudget::FaceWork EnergyBudget::work_on_faces(double dt, const State& now, const State& next,
@@ -28,12 +32,12 @@ EnergyBudget::FaceWork EnergyBudget::work_on_faces(double dt, const State& now, 
     add_solid(dt, d, now, next, trace, work);
     add_fluid(dt, d, grid_.inner_faces(d), 1.0, now, next, trace, work);
   }
-  if (grid_.open_top) {
-    Range top = grid_.fluid_faces(1);
-    top.lower[1] = grid_.cells.n[1];
-    add_fluid(dt, 1, top, 0.5, now, next, trace, work);  // half a cell of fluid, no grains
-    add_open_top(dt, trace, next, work);
-  }
+  grid_.for_each_open_side([&](int d, bool upper) {
+    // half a cell of fluid; the velocity of grains is given there
+    if (grid_.side(d, upper).passes_fluid)
+      add_fluid(dt, d, grid_.side_faces(d, upper), 0.5, now, next, trace, work);
+    add_side(dt, d, upper, trace, now, next, work);
+  });
   return work;
 }
 
@@ -69,7 +73,7 @@ void EnergyBudget::add_solid(double dt, int d, const State& now, const State& ne
   work.kinetic += volume * kinetic;
   work.moved += volume * (kinetic - 0.5 * before);
   work.explicit_work += volume * predicted;
-  if (d == 1) work.gravity -= volume * scene_.gravity * dt * momentum;
+  add_gravity(dt, d, volume, momentum, work);
   work.slip += volume * dt * slip;
   work.fluid_pressure -= volume * dt_h * fluid_pressure;
   work.solid_pressure -= volume * dt_h * solid_pressure;
@@ -109,39 +113,103 @@ void EnergyBudget::add_fluid(double dt, int d, const Range& faces, double weight
   work.kinetic += 0.25 * volume * after;
   work.moved += volume * (0.25 * after - 0.5 * before);
   work.explicit_work += volume * predicted;
-  if (d == 1) work.gravity -= volume * scene_.gravity * dt * momentum;
+  add_gravity(dt, d, volume, momentum, work);
   work.fluid_pressure -= volume * dt_h * fluid_pressure;
   work.flux_pressure -= volume * dt_h * flux_pressure;
 }
 
-void EnergyBudget::add_open_top(double dt, const StepTrace& trace, const State& next, FaceWork& work) const {
-  Range top = grid_.fluid_faces(1);
-  top.lower[1] = grid_.cells.n[1];
-  const double *q = trace.flux_c[1].data(), *v = next.u_c[1].data(), *m = trace.inertia.fluid[1].data(),
-               *f = trace.inertia.f_s[1].data();
-  const double volume = dt * grid_.cell_volume / grid_.h[1] *
-                        sum_over(grid_.cells, top, [=](std::ptrdiff_t c) { return q[c]; });
-  const double mass =
-      scene_.liquid.density * trace.liquid_left + scene_.gas.density * (volume - trace.liquid_left);
-  work.potential_out = mass * scene_.gravity * scene_.tank[1];
-  work.kinetic_out = dt * grid_.cell_volume / grid_.h[1] * sum_over(grid_.cells, top, [=](std::ptrdiff_t c) {
-                       return 0.5 * m[c] / (1.0 - f[c]) * v[c] * v[c] * q[c];
-                     });
+// What passes a side takes its energy along, and the pressure on the side works on it.
+void EnergyBudget::add_side(double dt, int d, bool upper, const StepTrace& trace, const State& now,
+                            const State& next, FaceWork& work) const {
+  const SideRule& side = grid_.side(d, upper);
+  const Range faces = grid_.side_faces(d, upper);
+  const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0;
+  const double *q = trace.flux_c[d].data(), *v = next.u_c[d].data(), *m = trace.inertia.fluid[d].data(),
+               *f = trace.inertia.f_s[d].data(), *liquid = trace.passed.through[d].data();
+  const double *qs = trace.flux_s[d].data(), *us = now.u_s[d].data(), *theta = now.theta.data();
+  const double rho_l = scene_.liquid.density, rho_g = scene_.gas.density, rho_s = scene_.solid.density;
+  const double sign = upper ? 1.0 : -1.0, area = grid_.cell_volume / grid_.h[d];
+  const auto total = [&](auto&& term) { return sum_over(grid_.cells, faces, term); };
+  const double left = trace.passed.left[2 * d + (upper ? 1 : 0)];
+  const double volume =
+      sign * dt * grid_.cell_volume / grid_.h[d] * total([=](std::ptrdiff_t c) { return q[c]; });
+  const double solid = sign * dt * area * rho_s * total([=](std::ptrdiff_t c) { return qs[c]; });
+  const double mass = rho_l * left + rho_g * (volume - left) + solid;
+  const auto mass_of_face = [=](std::ptrdiff_t c) {  // per area, along the axis [kg/m2]
+    return rho_l * liquid[c] + rho_g * (dt * q[c] - liquid[c]) + dt * rho_s * qs[c];
+  };
+  const Vec3 g = confined_gravity(scene_);
+  if (g[d] != 0.0) work.potential_out += mass * -g[d] * (upper ? scene_.tank[d] : 0.0);
+  for (int e = 0; e < grid_.dim; ++e) {  // where gravity acts along the side
+    if (e == d || g[e] == 0.0) continue;
+    double moment = 0.0;
+    for (int j = 0; j < grid_.cells.n[e]; ++j) {
+      Range row = faces;
+      row.lower[e] = j;
+      row.upper[e] = j + 1;
+      moment += (j + 0.5) * grid_.h[e] * sum_over(grid_.cells, row, mass_of_face);
+    }
+    work.potential_out -= sign * area * g[e] * moment;
+  }
+  if (side.passes_fluid) {
+    work.kinetic_out += sign * dt * grid_.cell_volume / grid_.h[d] * total([=](std::ptrdiff_t c) {
+                          return 0.5 * m[c] / (1.0 - f[c]) * v[c] * v[c] * q[c];
+                        });
+    if (const double* given = side_pressure_; given && side.pressure) {
+      const std::ptrdiff_t beyond = upper ? 0 : -s;
+      const double* solved = trace.flux_c_solved[d].data();
+      work.side_pressure -=
+          sign * dt * area * total([=](std::ptrdiff_t c) { return given[c + beyond] * (qs[c] + solved[c]); });
+    }
+  } else {  // as much as comes in, at the pressure that it meets
+    const double* p = next.p_c.data();
+    work.kinetic_out += sign * area * total([=](std::ptrdiff_t c) {
+                          const double of_fluid = rho_l * liquid[c] + rho_g * (dt * q[c] - liquid[c]);
+                          return 0.5 * of_fluid * v[c] * v[c];
+                        });
+    work.side_pressure -=
+        sign * dt * area * total([=](std::ptrdiff_t c) { return p[c + inside] * (qs[c] + q[c]); });
+  }
+  work.kinetic_out +=
+      sign * dt * area * total([=](std::ptrdiff_t c) { return 0.5 * rho_s * qs[c] * us[c] * us[c]; });
+  work.granular_out +=
+      sign * dt * area * total([=](std::ptrdiff_t c) { return 1.5 * rho_s * qs[c] * theta[c + inside]; });
+}
+
+void EnergyBudget::add_gravity(double dt, int d, double volume, double momentum, FaceWork& work) const {
+  const double g = gravity_of(scene_)[d];
+  work.gravity += volume * g * dt * momentum;
+  if (grid_.side(d, false).joined) work.driving += volume * g * dt * momentum;
 }
 
 double EnergyBudget::potential_energy(const State& s) const {
   const double rho_s = scene_.solid.density, rho_l = scene_.liquid.density, rho_g = scene_.gas.density;
   const double *f = s.f_s.data(), *a = s.alpha.data();
-  double sum = 0.0;
-  for (int j = 0; j < grid_.cells.n[1]; ++j) {
-    Range row = grid_.all_cells();
-    row.lower[1] = j;
-    row.upper[1] = j + 1;
-    sum += (j + 0.5) * sum_over(grid_.cells, row, [=](std::ptrdiff_t c) {
-             return f[c] * rho_s + (1.0 - f[c]) * mixture(a[c], rho_l, rho_g);
-           });
+  const Vec3 g = confined_gravity(scene_);
+  double energy = 0.0;
+  for (const int d : {1, 0}) {
+    if (g[d] == 0.0) continue;
+    double sum = 0.0;
+    for (int j = 0; j < grid_.cells.n[d]; ++j) {
+      Range row = grid_.all_cells();
+      row.lower[d] = j;
+      row.upper[d] = j + 1;
+      sum += (j + 0.5) * sum_over(grid_.cells, row, [=](std::ptrdiff_t c) {
+               return f[c] * rho_s + (1.0 - f[c]) * mixture(a[c], rho_l, rho_g);
+             });
+    }
+    if (const char* solid = grid_.obstacles.solid()) {  // they hold no gas
+      for (int j = 0; j < grid_.cells.n[d]; ++j) {
+        Range row = grid_.all_cells();
+        row.lower[d] = j;
+        row.upper[d] = j + 1;
+        sum -= (j + 0.5) * rho_g *
+               sum_over(grid_.cells, row, [=](std::ptrdiff_t c) { return solid[c] != 0 ? 1.0 : 0.0; });
+      }
+    }
+    energy -= g[d] * grid_.h[d] * grid_.cell_volume * sum;
   }
-  return scene_.gravity * grid_.h[1] * grid_.cell_volume * sum;
+  return energy;
 }
 
 EnergyTerms EnergyBudget::in_cells(const State& s) const {
@@ -172,11 +240,11 @@ EnergyTerms EnergyBudget::stored(const State& s) const {
     terms.kinetic += 0.5 * grid_.cell_volume *
                      sum_over(grid_.cells, grid_.inner_faces(d),
                               [=](std::ptrdiff_t c) { return ms[c] * u[c] * u[c] + mc[c] * v[c] * v[c]; });
-    if (d == 1 && grid_.open_top) {
-      Range top = grid_.fluid_faces(1);
-      top.lower[1] = grid_.cells.n[1];
+    for (const bool upper : {false, true}) {
+      if (!grid_.side(d, upper).passes_fluid) continue;
       terms.kinetic += 0.25 * grid_.cell_volume *
-                       sum_over(grid_.cells, top, [=](std::ptrdiff_t c) { return mc[c] * v[c] * v[c]; });
+                       sum_over(grid_.cells, grid_.side_faces(d, upper),
+                                [=](std::ptrdiff_t c) { return mc[c] * v[c] * v[c]; });
     }
   }
   return terms;
@@ -216,7 +284,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.friction = friction;
   t.viscosity = dissipated;
   t.collisions = trace.granular.collisions;
-  t.outflow = w.potential_out + w.kinetic_out;
+  t.outflow = w.potential_out + w.kinetic_out + w.granular_out - w.side_pressure - w.driving;
   t.walls = dt * (trace.viscous.walls + trace.stress.walls);
   const double of_flow = w.solid_pressure - pressure.elastic;  // kinetic and dense pressure
   t.dilatancy = of_flow - pressure.kinetic;
@@ -224,16 +292,16 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.theta_bounds = trace.granular.bounds;
 
   t.numerical_time = w.step;
-  t.numerical_volume =
-      -(t.potential - before.potential + w.potential_out + w.gravity + w.fluid_pressure - w.flux_pressure);
+  t.numerical_volume = -(t.potential - before.potential + w.potential_out + w.gravity - w.driving +
+                         w.fluid_pressure - w.flux_pressure);
   t.numerical_momentum =
       -(w.explicit_work - w.gravity + dissipated - dt * trace.viscous.walls + w.moved + w.kinetic_out);
   t.numerical_stress = -(on_grains + friction + production - dt * trace.stress.walls) -
                        (pressure.elastic + t.elastic - before.elastic - trace.dilated);
-  t.numerical_granular = -(pressure.kinetic - production + t.granular - before.granular +
+  t.numerical_granular = -(pressure.kinetic - production + t.granular - before.granular + w.granular_out +
                            trace.granular.collisions + trace.granular.drag);
-  t.residual =
-      w.force - w.explicit_work - on_grains + w.slip - w.fluid_pressure - w.solid_pressure + w.flux_pressure;
+  t.residual = w.force - w.explicit_work - on_grains + w.slip - w.fluid_pressure - w.solid_pressure +
+               w.flux_pressure - w.side_pressure;
   return t;
 }
 

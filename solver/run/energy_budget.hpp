@@ -13,6 +13,7 @@
 #include "solver/operators/aperture.hpp"
 #include "solver/operators/friction.hpp"
 #include "solver/operators/granular_temperature.hpp"
+#include "solver/operators/side_liquid.hpp"
 #include "solver/operators/viscosity.hpp"
 #include "solver/run/energy_terms.hpp"
 #include "solver/run/state.hpp"
@@ -31,14 +32,17 @@ struct StepTrace {
   const FluidViscosity::Power& viscous;
   const Friction::Power& stress;
   const GranularLosses& granular;
-  double dilated;      // elastic energy that shear put into the contacts by their packing [J]
-  double liquid_left;  // [m3]
+  double dilated;  // elastic energy that shear put into the contacts by their packing [J]
+  const SideLiquid& passed;
 };
 
 class EnergyBudget {
  public:
-  EnergyBudget(const Grid& grid, const Scene& scene)
-      : grid_(grid), scene_(scene), elastic_energy_(scene.contact) {}
+  EnergyBudget(const Grid& grid, const Scene& scene, const Boundary& boundary)
+      : grid_(grid),
+        scene_(scene),
+        side_pressure_(boundary.side_pressure()),
+        elastic_energy_(scene.contact) {}
 
   // Stored by the contact pressure (13) [J].
   double elastic(const Field& f_s, const Field& packing) const;
@@ -54,7 +58,10 @@ class EnergyBudget {
                  FaceWork& work) const;
   void add_fluid(double dt, int d, const Range& faces, double weight, const State& now, const State& next,
                  const StepTrace& trace, FaceWork& work) const;
-  void add_open_top(double dt, const StepTrace& trace, const State& next, FaceWork& work) const;
+  void add_side(double dt, int d, bool upper, const StepTrace& trace, const State& now, const State& next,
+                FaceWork& work) const;
+  // `momentum`: the sum of m u over faces of direction d [kg/m2 s], each of the same volume [m3].
+  void add_gravity(double dt, int d, double volume, double momentum, FaceWork& work) const;
   EnergyTerms in_cells(const State& s) const;  // stored energies but the kinetic one
   double potential_energy(const State& s) const;
   // Work of the elastic and of the kinetic pressure on the grains in dt [J].
@@ -65,6 +72,7 @@ class EnergyBudget {
 
   const Grid& grid_;
   const Scene& scene_;
+  const double* side_pressure_;  // Boundary::side_pressure()
   closures::ElasticEnergy elastic_energy_;
 };
 

@@ -20,9 +20,11 @@ struct EnergyTerms {
   double friction = 0.0;    // Coulomb stress (17)
   double viscosity = 0.0;   // of the fluid, LES included
   double collisions = 0.0;  // gamma_s of (23)
-  double outflow = 0.0;     // carried out through the open top
-  double walls = 0.0;       // given by moving walls (a gain)
-  double dilatancy = 0.0;   // work of P_s^EF (14), which (7) does not charge to Theta (a gain)
+  // Carried out through the sides, less the work of the pressure on them, and of gravity along periodic
+  // directions, which have no potential: negative where a flow is driven from outside.
+  double outflow = 0.0;
+  double walls = 0.0;      // given by moving walls (a gain)
+  double dilatancy = 0.0;  // work of P_s^EF (14), which (7) does not charge to Theta (a gain)
 
   // Given to the contacts by shear that dilates the bed: what friction takes for it by tan(psi) (a gain).
   double shear_dilatancy = 0.0;
@@ -67,7 +69,8 @@ inline constexpr std::array energy_terms{
     EnergyTerm{"lost_viscosity", &EnergyTerms::viscosity,
                "dissipated by the fluid's viscosity so far, LES included"},
     EnergyTerm{"lost_collisions", &EnergyTerms::collisions, "dissipated by collisions so far"},
-    EnergyTerm{"lost_outflow", &EnergyTerms::outflow, "carried out through the open top so far"},
+    EnergyTerm{"lost_outflow", &EnergyTerms::outflow,
+               "carried out through the sides so far, net of what drives the flow from outside"},
     EnergyTerm{"gained_walls", &EnergyTerms::walls, "given by moving walls so far"},
     EnergyTerm{"gained_dilatancy", &EnergyTerms::dilatancy, "work of P_s^EF so far, not charged to Theta"},
     EnergyTerm{"gained_shear_dilatancy", &EnergyTerms::shear_dilatancy,

@@ -7,7 +7,7 @@ namespace granvof {
 
 Monitors::Monitors(const Grid& grid, const Scene&, const State& start)
     : grid_(grid), solid_volume_(solid_volume(start)), liquid_volume_(liquid_volume(start)) {
-  update(start, 0.0);
+  update(start, 0.0, 0.0);
 }
 
 double Monitors::solid_volume(const State& s) const {
@@ -21,10 +21,12 @@ double Monitors::liquid_volume(const State& s) const {
          sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return a[c] * (1.0 - f[c]); });
 }
 
-void Monitors::update(const State& s, double liquid_left) {
+void Monitors::update(const State& s, double liquid_left, double solid_left) {
   liquid_left_ += liquid_left;
+  solid_left_ += solid_left;
   if (solid_volume_ > 0.0)
-    solid_error_ = std::max(solid_error_, std::fabs(solid_volume(s) - solid_volume_) / solid_volume_);
+    solid_error_ =
+        std::max(solid_error_, std::fabs(solid_volume(s) - solid_volume_ + solid_left_) / solid_volume_);
   if (liquid_volume_ > 0.0)
     liquid_error_ =
         std::max(liquid_error_, std::fabs(liquid_volume(s) + liquid_left_ - liquid_volume_) / liquid_volume_);
@@ -56,6 +58,7 @@ void Monitors::restore(const Values& v) {
   solid_volume_ = v.solid_volume;
   liquid_volume_ = v.liquid_volume;
   liquid_left_ = v.liquid_left;
+  solid_left_ = v.solid_left;
   solid_error_ = v.solid_error;
   liquid_error_ = v.liquid_error;
   solid_max_ = v.solid_max;

@@ -12,9 +12,11 @@ class Monitors {
   // Takes the volumes of the start as the reference.
   Monitors(const Grid& grid, const Scene& scene, const State& start);
 
-  // After an accepted step; `liquid_left` is what left through the open top [m3].
-  void update(const State& s, double liquid_left);
+  // After an accepted step; what left through the sides, net [m3].
+  void update(const State& s, double liquid_left, double solid_left);
 
+  double solid_volume(const State& s) const;                    // [m3]
+  double liquid_volume(const State& s) const;                   // [m3]
   double solid_volume_error() const { return solid_error_; }    // largest relative change so far [-]
   double liquid_volume_error() const { return liquid_error_; }  // the same, outflow accounted for [-]
   double solid_fraction_max() const { return solid_max_; }      // largest ever [-]
@@ -23,19 +25,18 @@ class Monitors {
   std::string not_finite(const State& s) const;
 
   struct Values {
-    double solid_volume, liquid_volume, liquid_left, solid_error, liquid_error, solid_max, solid_min;
+    double solid_volume, liquid_volume, liquid_left, solid_left, solid_error, liquid_error, solid_max,
+        solid_min;
   };
   Values values() const {
-    return {solid_volume_, liquid_volume_, liquid_left_, solid_error_, liquid_error_, solid_max_, solid_min_};
+    return {solid_volume_, liquid_volume_, liquid_left_, solid_left_,
+            solid_error_,  liquid_error_,  solid_max_,   solid_min_};
   }
   void restore(const Values& v);
 
  private:
-  double solid_volume(const State& s) const;
-  double liquid_volume(const State& s) const;
-
   const Grid& grid_;
-  double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0;
+  double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0, solid_left_ = 0.0;
   double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0, solid_min_ = 1.0;
 };
 

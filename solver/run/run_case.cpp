@@ -137,7 +137,7 @@ bool Run::advance() {
   }
   std::swap(now_, next_);
   control_.accepted(dt);
-  monitors_.update(now_, last_.liquid_left);
+  monitors_.update(now_, last_.liquid_left, last_.solid_left);
   counters_.newton += last_.pressure.newton;
   counters_.linear += last_.pressure.linear;
   counters_.friction += last_.friction.iterations;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/run/energy_budget.hpp"
 #include "solver/scene/fill.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -28,9 +30,14 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
   const auto weight = [&](int j) {  // submerged, per area [Pa]
     const std::ptrdiff_t c = l.index(i, j, k);
     return (scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density)) * s.f_s[c] *
-           scene.gravity * grid.h[1];
+           normal_gravity(scene) * grid.h[1];
   };
   const auto has_grains = [&](int j) { return s.f_s[l.index(i, j, k)] >= least_solid_fraction; };
+  const char* solid = grid.obstacles.solid();
+  const auto borne_by = [&](int j, bool upper) {  // by a floor, a lid, an obstacle
+    if (j == (upper ? rows - 1 : 0)) return grid.side(1, upper).bears_grains;
+    return solid != nullptr && solid[l.index(i, upper ? j + 1 : j - 1, k)] != 0;
+  };
   for (int top = rows - 1; top >= 0; --top) {
     if (!has_grains(top)) continue;
     double load = 0.0, grains = 0.0;  // of all cells down to `bottom`
@@ -40,8 +47,8 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
       load += weight(j);
       grains += s.f_s[l.index(i, j, k)];
     }
-    const bool on_floor = bottom == 0 && !l.periodic[1] && load > 0.0;
-    const bool under_lid = top == rows - 1 && !l.periodic[1] && !grid.open_top && load < 0.0;
+    const bool on_floor = load > 0.0 && borne_by(bottom, false),
+               under_lid = load < 0.0 && borne_by(top, true);
     double p = under_lid ? -load : 0.0;  // at the upper face
     const double per_grain = on_floor || under_lid ? 0.0 : load / grains;
     for (int j = top; j >= bottom; --j) {
@@ -77,8 +84,8 @@ State::State(const Grid& grid)
       u_strain(grid) {}
 
 void State::fill_ghosts(const Boundary& boundary) {
-  boundary.fill_scalar(f_s, 0.0);
-  boundary.fill_scalar(alpha, 0.0);
+  boundary.fill_solid_fraction(f_s);
+  boundary.fill_liquid_share(alpha);
   boundary.fill_pressure(p_c);
   boundary.fill_scalar(p_s);
   boundary.fill_scalar(theta);
@@ -105,22 +112,42 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
     s.alpha[c] = share_of(scene.liquid_boxes, box);
   });
   // Hydrostatic from the top down, with the continuous phase alone: grains at rest hang on P_s, not on P_c.
+  // Under an inclined top, from its middle.
   const Layout& l = grid.cells;
+  const double normal = normal_gravity(scene), along = confined_gravity(scene)[0];
+  const auto density = [&](std::ptrdiff_t c) {
+    return mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
+  };
+  const auto pressure_at_the_top = [&](int k) {
+    std::vector<double> pressure(static_cast<std::size_t>(l.n[0]), 0.0);
+    double mean = 0.0;
+    for (int i = 1; i < l.n[0]; ++i) {
+      const std::ptrdiff_t c = l.index(i, l.n[1] - 1, k);
+      const std::size_t here = static_cast<std::size_t>(i);
+      pressure[here] = pressure[here - 1] + 0.5 * (density(c - 1) + density(c)) * along * grid.h[0];
+      mean += pressure[here] / l.n[0];
+    }
+    for (double& p : pressure) p -= mean;
+    return pressure;
+  };
   for (int k = 0; k < l.n[2]; ++k) {
+    const std::vector<double> top = pressure_at_the_top(k);
     for (int i = 0; i < l.n[0]; ++i) {
-      double pressure = 0.0, above = 0.0;
+      double pressure = top[static_cast<std::size_t>(i)], above = 0.0;
       for (int j = l.n[1] - 1; j >= 0; --j) {
         const std::ptrdiff_t c = l.index(i, j, k);
-        const double here = mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
-        pressure += 0.5 * (above + here) * scene.gravity * grid.h[1];
+        const double here = density(c);
+        pressure += 0.5 * (above + here) * normal * grid.h[1];
         s.p_c[c] = pressure;
         above = here;
       }
     }
   }
+  // Until here as if the tank were empty: the water on both sides of an obstacle is one body.
+  for (const std::ptrdiff_t c : grid.obstacles.cells()) s.f_s[c] = s.alpha[c] = s.phi[c] = s.p_c[c] = 0.0;
   if (scene.model.carries_packing()) settle(grid, scene, s);
   s.fill_ghosts(boundary);
-  s.energy = EnergyBudget(grid, scene).stored(s);
+  s.energy = EnergyBudget(grid, scene, boundary).stored(s);
   return s;
 }
 

@@ -10,6 +10,7 @@
 #include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_transport.hpp"
 #include "solver/run/step_control.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof {
 namespace {
@@ -37,7 +38,9 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       interface_(grid, scene, boundary),
       temperature_(grid, scene, boundary, communicator),
       strain_(grid),
-      budget_(grid, scene),
+      whole_columns_(grid.has_whole_columns()),
+      continuity_tree_(grid),
+      budget_(grid, scene, boundary),
       predicted_s_(grid),
       predicted_c_(grid),
       mass_(grid),
@@ -46,13 +49,15 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       flux_c_(grid),
       flux_c_solved_(grid),
       stirred_(grid),
-      production_(grid) {}
+      production_(grid) {
+  if (!whole_columns_) continuity_tree_.grow(aperture_);
+}
 
 StepReport TimeStep::advance(const State& now, double dt, State& next, const BodyAcceleration* extra) {
   StepReport report;
   next = now;
   next.time = now.time + dt;
-  aperture_.update(next.time);
+  if (aperture_.update(next.time) && !whole_columns_) continuity_tree_.grow(aperture_);
 
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
@@ -86,7 +91,10 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   cost_.time("transport", [&] {
     keep_solid_positive(grid_, boundary_, dt, now.f_s, flux_s_, flux_c_);
     flux_c_solved_ = flux_c_;
-    close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);
+    if (whole_columns_)
+      close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);
+    else
+      continuity_tree_.close(boundary_, flux_s_, flux_c_);
     transport_solid(grid_, dt, now.f_s, flux_s_, next.f_s);
   });
   const double* f = next.f_s.data();
@@ -96,13 +104,16 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     report.refused_because = fmt::format("solid fraction {:.3f}", densest);
     return report;
   }
+  const SideLiquid* passed = nullptr;
   cost_.time("transport", [&] {
     if (scene_.model.colour) transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
     if (scene_.model.carries_packing())
       transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.packing, next.packing);
-    report.liquid_left = interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
+    passed = &interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
+    report.liquid_left = passed->total();
+    report.solid_left = solid_left(grid_, dt, flux_s_);
     set_pressure_level(grid_, scene_, next.alpha, next.p_c);
-    boundary_.fill_scalar(next.f_s, 0.0);
+    boundary_.fill_solid_fraction(next.f_s);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
   double dilated = 0.0;
@@ -118,8 +129,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
                                     rheology_, strain_, production_, next.theta);
   });
   next.fill_ghosts(boundary_);
-  cost_.time("energy budget",
-             [&] { account_energy(now, dt, stress, granular, dilated, report.liquid_left, next); });
+  cost_.time("energy budget", [&] { account_energy(now, dt, stress, granular, dilated, *passed, next); });
   report.accepted = true;
   return report;
 }
@@ -143,7 +153,7 @@ void TimeStep::predict(const State& now, double dt) {
   const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
-    const double gravity = d == 1 ? -scene_.gravity : 0.0, inv_h = 1.0 / grid_.h[d];
+    const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
     const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
     if (limited && !scene_.liquid_boxes.empty()) {
       convective_acceleration_limited_in(inertia_.fluid[d], between_gas_and_liquid, grid_, now.u_c, d, fluid,
@@ -244,13 +254,13 @@ double TimeStep::dilate(double dt, State& next) {
 }
 
 void TimeStep::account_energy(const State& now, double dt, const Friction::Power& stress,
-                              const GranularLosses& granular, double dilated, double liquid_left,
+                              const GranularLosses& granular, double dilated, const SideLiquid& passed,
                               State& next) {
   const FluidViscosity::Power viscous = viscosity_.power(boundary_);
   next.energy.add(
       budget_.of_step(dt, now, next,
                       {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_, flux_c_solved_,
-                       rheology_, strain_, viscous, stress, granular, dilated, liquid_left}));
+                       rheology_, strain_, viscous, stress, granular, dilated, passed}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

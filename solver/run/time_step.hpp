@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solver/operators/aperture.hpp"
+#include "solver/operators/continuity_tree.hpp"
 #include "solver/operators/coupled_pressure.hpp"
 #include "solver/operators/friction.hpp"
 #include "solver/operators/granular_temperature.hpp"
@@ -24,7 +25,7 @@ struct StepReport {
   std::string refused_because;  // empty if accepted
   PressureReport pressure;
   linear::Report friction;
-  double liquid_left = 0.0;  // volume that left through the open top [m3]
+  double liquid_left = 0.0, solid_left = 0.0;  // volumes that left through sides, net [m3]
 };
 
 // Accelerations beside gravity, on the faces of each direction [m/s2]: the sources of a manufactured
@@ -52,7 +53,7 @@ class TimeStep {
   bool apply_viscosity(const State& now, double dt, State& next);
   double dilate(double dt, State& next);
   void account_energy(const State& now, double dt, const Friction::Power& stress,
-                      const GranularLosses& granular, double dilated, double liquid_left, State& next);
+                      const GranularLosses& granular, double dilated, const SideLiquid& passed, State& next);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;
@@ -70,6 +71,8 @@ class TimeStep {
   InterfaceTransport interface_;
   GranularTemperature temperature_;
   StrainRate strain_;
+  bool whole_columns_;  // else the tree closes continuity
+  ContinuityTree continuity_tree_;
   EnergyBudget budget_;
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
   FaceField mass_, rhs_;                 // of the implicit solid momentum

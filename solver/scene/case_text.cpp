@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -74,6 +75,10 @@ class Merge {
     for (const auto& [key, node] : table) {
       const std::string name = name_text(key.str());
       const std::string path = prefix.empty() ? name : prefix + "." + name;
+      if (const Table* known = find_table(path); known && known->many && node.is_array_of_tables()) {
+        list(*node.as_array(), path);
+        continue;
+      }
       const auto* inner = node.as_table();
       if (inner && (prefix.empty() || !inner->empty())) {
         if (prefix.empty()) text_.tables[path] = where(node);
@@ -84,8 +89,24 @@ class Merge {
     }
   }
 
+  // [[name]] as often as there are such boxes: each key becomes the list of its numbers, as [name] states it.
+  // A key that some have and some do not is one list too short, and refused where lists are compared.
+  void list(const toml::array& tables, const std::string& path) {
+    text_.tables[path] = where(tables);
+    std::map<std::string, std::pair<toml::array, Place>> columns;
+    for (const toml::node& node : tables) {
+      for (const auto& [key, value] : *node.as_table()) {
+        auto& [column, first] = columns[path + "." + name_text(key.str())];
+        if (column.empty()) first = where(value);
+        column.push_back(value);
+      }
+    }
+    for (const auto& [name, column] : columns) set(name, column.first, column.second);
+  }
+
  private:
-  void set(const std::string& path, const toml::node& node) {
+  void set(const std::string& path, const toml::node& node) { set(path, node, where(node)); }
+  void set(const std::string& path, const toml::node& node, const Place& place) {
     const Value value = value_of(node);
     const std::string top = path.substr(0, path.find('.'));
     if (top == path) {
@@ -98,11 +119,11 @@ class Merge {
     } else {
       drop_below(path);
       text_.entries.erase(top);
-      text_.tables.try_emplace(top, where(node));
+      text_.tables.try_emplace(top, place);
     }
     if (const auto before = text_.entries.find(path); before != text_.entries.end())
       text_.replaced.emplace_back(*before);
-    text_.entries[path] = {value, shown(node, value), where(node), layer_};
+    text_.entries[path] = {value, shown(node, value), place, layer_};
   }
 
   void drop_below(const std::string& path) {

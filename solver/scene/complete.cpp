@@ -169,6 +169,7 @@ Scene complete(Draft& draft, const CaseText& text, Faults& faults) {
   complete_materials(c);
   complete_bed(c);
   complete_gate(c);
+  complete_obstacles(c);
   complete_times(c);
   complete_reference(c);
   faults.throw_if_any();

@@ -37,7 +37,9 @@ void check_side(const Completion& c, int side) {
   const std::string name = side_key(side);
   const SideInput& input = c.d.sides[side];
   if (side == front || side == back) {
-    for (const char* part : {"", ".fluid", ".solid", ".solid_friction", ".velocity"})
+    for (const char* part :
+         {"", ".fluid", ".solid", ".solid_friction", ".velocity", ".inflow", ".inflow_solid_fraction",
+          ".inflow_liquid_share", ".outflow_pressure", ".outflow_level"})
       c.only_in_3d(name + part);
   }
   if (input.word == SideWord::open && side != top) {
@@ -74,6 +76,71 @@ void inherit(SideInput& own, const SideInput& all) {
   own.word.reset();
 }
 
+bool flows(const SideInput& side) {
+  return side.inflow || side.outflow_pressure;
+}
+
+// An inlet or an outlet is that alone.
+void check_flow(const Completion& c, int side) {
+  const std::string name = side_key(side);
+  const SideInput& input = c.d.sides[side];
+  if (side == side_all && flows(input)) {
+    c.refuse(name + (input.inflow ? ".inflow" : ".outflow_pressure"), "an inlet or an outlet of one side");
+  }
+  if (input.inflow && input.outflow_pressure)
+    c.refuse(name + ".outflow_pressure", "nothing beside " + name + ".inflow: an inlet or an outlet");
+  for (const char* part : {".inflow_solid_fraction", ".inflow_liquid_share"})
+    if (c.given(name + part) && !input.inflow) c.refuse(name + part, "only with " + name + ".inflow");
+  if (c.given(name + ".outflow_level") && !input.outflow_pressure)
+    c.refuse(name + ".outflow_level", "only with " + name + ".outflow_pressure");
+  if (!flows(input)) return;
+  for (const char* part : {"", ".fluid", ".solid", ".solid_friction", ".velocity"}) {
+    if (c.given(name + part))
+      c.refuse(name + part, "nothing beside " + name + (input.inflow ? ".inflow" : ".outflow_pressure"));
+  }
+}
+
+void fill_inlet(const Completion& c, int side) {
+  SideInput own;
+  const SideInput& input = c.d.sides[side];
+  own.inflow = input.inflow;
+  own.inflow_solid_fraction = input.inflow_solid_fraction.value_or(0.0);
+  own.inflow_liquid_share = input.inflow_liquid_share.value_or(c.has("liquid") ? 1.0 : 0.0);
+  if (*own.inflow_liquid_share > 0.0 && !c.has("liquid"))
+    c.refuse(side_key(side) + ".inflow_liquid_share", "0: the case has no [liquid]");
+  if (*own.inflow_solid_fraction > 0.0 && !c.has("solid"))
+    c.refuse(side_key(side) + ".inflow_solid_fraction", "0: the case has no [solid]");
+  if (*own.inflow_solid_fraction > c.s.contact.solid_fraction_max)
+    c.refuse(side_key(side) + ".inflow_solid_fraction",
+             fmt::format("at most contact.solid_fraction_max = {}", c.s.contact.solid_fraction_max));
+  c.s.sides[side].kind = SideKind::inlet;
+  c.s.sides[side].inflow = {*own.inflow, *own.inflow_solid_fraction, *own.inflow_liquid_share};
+  c.d.sides[side] = own;
+}
+
+void fill_outlet(const Completion& c, int side) {
+  SideInput own;
+  const SideInput& input = c.d.sides[side];
+  own.outflow_pressure = input.outflow_pressure;
+  own.outflow_level = input.outflow_level.value_or(c.d.level.value_or(0.0));
+  if (c.outside(0.0, *own.outflow_level, 1))
+    c.refuse(side_key(side) + ".outflow_level", fmt::format("at most the tank's height {} m", c.s.tank[1]));
+  if (*own.outflow_level > 0.0 && !c.has("liquid"))
+    c.refuse(side_key(side) + ".outflow_level", "0: the case has no [liquid]");
+  c.s.sides[side].kind = SideKind::outlet;
+  c.s.sides[side].outflow = {*own.outflow_pressure, *own.outflow_level};
+  c.d.sides[side] = own;
+}
+
+// What comes in has to leave.
+void check_way_out(const Completion& c, int side) {
+  if (c.s.sides[side].kind != SideKind::inlet) return;
+  for (const Side& other : c.s.sides)
+    if (other.kind == SideKind::outlet || other.kind == SideKind::open) return;
+  c.refuse(side_key(side) + ".inflow",
+           "a way out beside it: an outlet (outflow_pressure), or walls.top = \"open\"");
+}
+
 // Copies a side into the scene and states it in full in the draft.
 void fill_side(const Completion& c, int side) {
   Side& to = c.s.sides[side];
@@ -84,6 +151,7 @@ void fill_side(const Completion& c, int side) {
     input = {};
     return;
   }
+  if (flows(input)) return input.inflow ? fill_inlet(c, side) : fill_outlet(c, side);
   const std::optional<SideWord> word = input.word               ? input.word
                                        : all.fluid && all.solid ? std::nullopt
                                                                 : all.word;
@@ -120,16 +188,22 @@ void check_period(const Completion& c, int side) {
 
 void complete_walls(Completion& c) {
   for (int side = 0; side <= side_all; ++side) {
-    c.rule({"scene.dimensions", side_key(side)}, [&] { check_side(c, side); });
+    c.rule({"scene.dimensions", side_key(side)}, [&] {
+      check_side(c, side);
+      check_flow(c, side);
+    });
   }
   c.rule({"walls.all"}, [&] { check_friction(c, side_all, c.d.sides[side_all].solid == WallKind::coulomb); });
   for (int side = 0; side < side_all; ++side) {
-    c.rule({"scene.dimensions", side_key(side), "walls.all"}, [&] { fill_side(c, side); });
+    c.rule({"scene.dimensions", "tank", "contact.solid_fraction_max", "liquid.level", side_key(side),
+            "walls.all"},
+           [&] { fill_side(c, side); });
   }
   c.d.sides[side_all] = {};  // every side now says it for itself
   for (int side = 0; side < side_all; ++side) {
     c.rule({"scene.dimensions", side_key(side), side_key(side ^ 1), "walls.all", "tank.gravity"},
            [&] { check_period(c, side); });
+    c.rule({"walls"}, [&] { check_way_out(c, side); });
   }
 }
 

@@ -63,6 +63,7 @@ class Completion {
 void complete_walls(Completion& c);
 void complete_bed(Completion& c);
 void complete_gate(Completion& c);
+void complete_obstacles(Completion& c);
 void complete_times(Completion& c);
 void complete_reference(Completion& c);
 

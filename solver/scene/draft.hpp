@@ -1,6 +1,7 @@
 // A case between text and Scene: what its keys say, before defaults that depend on other keys are filled in.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +21,8 @@ struct SideInput {
   std::optional<WallKind> fluid, solid;
   std::optional<double> solid_friction;
   std::vector<double> velocity;  // empty: at rest
+  std::optional<double> inflow, inflow_solid_fraction, inflow_liquid_share;
+  std::optional<double> outflow_pressure, outflow_level;
 };
 
 enum class BedPlace { floor, on_water, floating };
@@ -34,6 +37,11 @@ struct BedInput {
   std::optional<double> z, width;
   ColourPattern colour = ColourPattern::uniform;
   std::optional<double> colour_size;
+};
+
+// Corners by axis, one number an obstacle each.
+struct ObstacleInput {
+  std::array<std::vector<double>, 3> lower, upper;
 };
 
 struct ReferenceInput {
@@ -67,6 +75,7 @@ struct Draft {
   BedInput bed;
   std::optional<double> gate_position;
   double gate_speed = 0.0;
+  ObstacleInput obstacles;
   TimesInput times;
   ReferenceInput reference;
 };

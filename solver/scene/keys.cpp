@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "solver/scene/key_types.hpp"
+#include "solver/scene/keys_of_sides.hpp"
 #include "solver/scene/presets.hpp"
-#include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
 namespace {
@@ -31,49 +31,16 @@ std::vector<Key> scene_keys() {
       otherwise(
           key("tank.depth", "m", positive, MEMBER(depth), "2D only: depth that results are stated for."),
           "1"),
-      key("tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity), "Acts against y."),
+      key("tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity), "Acts against y in a level tank."),
+      came_later(
+          key("tank.inclination", "degrees",
+              Range{.lower = -90.0, .upper = 90.0, .lower_open = true, .upper_open = true},
+              MEMBER(scene.inclination),
+              "Of the floor, down towards +x: g = gravity (sin, -cos). Levels and beds stay along x.")),
       required(key("grid.dx", "m", positive, MEMBER(dx), "Cell size in x; divides the tank's size.")),
       otherwise(key("grid.dy", "m", positive, MEMBER(dy), "Cell size in y."), "grid.dx"),
       otherwise(key("grid.dz", "m", positive, MEMBER(dz), "3D only: cell size in z."), "grid.dx"),
   };
-}
-
-// The keys of one side; those of the first side stand for all in the documentation.
-std::vector<Key> side_keys(int side) {
-  const Words<SideWord> side_words{{"no-slip", SideWord::no_slip},
-                                   {"slip", SideWord::slip},
-                                   {"open", SideWord::open},
-                                   {"periodic", SideWord::periodic}};
-  const Words<WallKind> fluid_words{{"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}};
-  const Words<WallKind> solid_words{
-      {"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}, {"coulomb", WallKind::coulomb}};
-  const std::string name = "walls." + std::string(side_names[side]);
-  const auto input = [side](auto member) {
-    return [ side, member ](auto& draft) -> auto& {
-      return member(draft.sides[side]);
-    };
-  };
-  std::vector<Key> list{
-      otherwise(
-          choice(
-              name, side_words, input(MEMBER(word)),
-              "Both phases alike; \"open\" for the top only; \"periodic\" with its opposite. SIDE is left, "
-              "right, bottom, top, front, back (the last two in 3D only), or all for the rest."),
-          side == side_all ? "\"no-slip\"" : "walls.all"),
-      otherwise(choice(name + ".fluid", fluid_words, input(MEMBER(fluid)), "Gas and liquid at this side."),
-                "the side's word, else walls.all"),
-      otherwise(
-          choice(name + ".solid", solid_words, input(MEMBER(solid)),
-                 "Grains at this side; \"coulomb\": tangential stress at most solid_friction times P_s."),
-          "the side's word, else walls.all"),
-      key(name + ".solid_friction", "-", not_negative, input(MEMBER(solid_friction)),
-          "mu_w; with solid = \"coulomb\" only."),
-      otherwise(
-          key(name + ".velocity", "m/s", any, input(MEMBER(velocity)), "Of the wall, in its own plane."),
-          "at rest"),
-  };
-  for (Key& k : list) k.documented = side == 0;
-  return list;
 }
 
 std::vector<Key> material_keys() {
@@ -350,6 +317,7 @@ std::vector<Key> all_keys() {
   add(material_keys());
   add(contact_keys());
   add(bed_keys());
+  add(obstacle_keys());
   add(time_keys());
   add(model_keys());
   add(numerics_keys());
@@ -375,6 +343,8 @@ const std::vector<Table>& tables() {
       {"contact", Scope::model, false, "Enduring contact, (13)-(17); the defaults are the paper's."},
       {"bed", Scope::setup, true, "Where the grains are at the start; needs [solid]."},
       {"gate", Scope::setup, true, "A vertical plate that holds the bed; needs [bed]."},
+      {"obstacle", Scope::setup, true,
+       "Boxes that no phase enters, [[obstacle]] as often as there are; or one [obstacle] with lists.", true},
       {"time", Scope::run, false, "Length of the run."},
       {"model", Scope::model, false, "What is modelled; each switch removes one physical part."},
       {"numerics", Scope::run, false, "How it is computed."},

@@ -26,6 +26,7 @@ struct Table {
   Scope scope = Scope::setup;
   bool optional = false;  // a case may leave it out; its required keys are required only where it stands
   std::string help;
+  bool many = false;  // may stand as [[name]], as often as there are such things: its keys are lists
 };
 
 inline constexpr std::string_view unit_of_times = "time.unit";  // unit of a key whose unit is another key

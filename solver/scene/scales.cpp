@@ -21,7 +21,7 @@ double fastest_wall(const Scene& scene) {
   for (const Side& side : scene.sides) {
     double of_side = 0.0;
     for (const double v : side.velocity) of_side += v * v;
-    square = std::max(square, of_side);
+    square = std::max({square, of_side, side.inflow.speed * side.inflow.speed});
   }
   return std::sqrt(square);
 }

@@ -30,9 +30,27 @@ struct PhaseWall {
 };
 
 enum class SideKind {
-  wall,     // closed to every phase
-  open,     // top only: fluid passes at P_c = 0, gas flows in, grains do not pass
-  periodic  // joined to the opposite side
+  wall,      // closed to every phase
+  open,      // top only: fluid passes at P_c = 0, gas flows in, grains do not pass
+  periodic,  // joined to the opposite side
+  inlet,     // both phases come in at a given speed
+  outlet     // both phases leave, the fluid at a given pressure
+};
+
+// What comes in through an inlet: speed of both phases along the inward normal, and their fractions.
+struct Inflow {
+  double speed = 0.0;           // [m/s], > 0
+  double solid_fraction = 0.0;  // [-]; at 0 grains find a closed wall
+  double liquid_share = 0.0;    // alpha [-]
+  bool operator==(const Inflow&) const = default;
+};
+
+// P_c on an outlet: `pressure` at its upper end, from there down that of a fluid at rest beyond it, gas above
+// `level` and liquid below.
+struct Outflow {
+  double pressure = 0.0;  // [Pa]
+  double level = 0.0;     // [m]
+  bool operator==(const Outflow&) const = default;
 };
 
 struct Side {
@@ -40,6 +58,8 @@ struct Side {
   PhaseWall fluid;
   PhaseWall solid;
   Vec3 velocity{};  // tangential velocity of the wall [m/s]
+  Inflow inflow;    // of an inlet
+  Outflow outflow;  // of an outlet
   bool operator==(const Side&) const = default;
 };
 
@@ -221,9 +241,10 @@ struct Scene {
   std::string name;  // unique, equals the file's stem
   std::string title;
   std::filesystem::path file;
-  int dimensions = 2;  // 2 or 3
-  Vec3 tank{};         // inner size [m]; in 2D tank[2] is the depth the results are stated for
-  double gravity = 9.81;
+  int dimensions = 2;        // 2 or 3
+  Vec3 tank{};               // inner size [m]; in 2D tank[2] is the depth the results are stated for
+  double gravity = 9.81;     // |g| [m/s2], >= 0
+  double inclination = 0.0;  // of the floor, down towards +x [degrees], in (-90, 90)
   Grid3 grid;
   std::array<Side, 6> sides{};  // indexed by SideIndex
   Fluid gas;
@@ -233,6 +254,7 @@ struct Scene {
   std::optional<Bed> bed;
   std::vector<Box> liquid_boxes;  // where alpha = 1 at the start, pores of the bed included
   std::optional<Gate> gate;
+  std::vector<Box> obstacles;  // closed to every phase; made of whole cells
   std::optional<ReferenceSettings> reference;
   Model model;
   Numerics numerics;

@@ -79,7 +79,7 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   if (settings_.gate) declare_gate();
 
   command(fmt::format("timestep {}", settings_.dt));
-  set_gravity(settings_.gravity);
+  set_gravity(settings_.gravity, settings_.inclination);
   command("fix coupling all couple/cfd couple_every 1000000 mpi");
   command("fix fluid mobile couple/cfd/force/implicit");
   command("fix motion mobile nve/sphere");

@@ -30,7 +30,8 @@ struct BeadSettings {
   double density = 0.0;          // [kg/m3]
   ContactLaw law;
   double dt = 1e-5;            // [s]
-  double gravity = 9.81;       // along -y [m/s2]; negative pulls up
+  double gravity = 9.81;       // along -y of a level tank [m/s2]; negative pulls up
+  double inclination = 0.0;    // of the floor, down towards +x [degrees]
   std::optional<double> gate;  // x of a vertical plate over the whole depth [m]
   double gate_height = 0.0;    // upper edge of the plate at the start [m]
   std::string scratch_folder;  // for the files that LIGGGHTS reads

@@ -120,7 +120,9 @@ Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
             patch_types(s, plain)),
       open(face_field("open", mesh, dimless, 1.0)) {
   for (const FluidSide side : s.sides) closed = closed && side != FluidSide::open;
-  const dimensionedScalar top("top", dimAcceleration * dimLength, -s.gravity * s.cells[1] * s.spacing[1]);
+  // Zero at the middle of the top, as granvof has it.
+  const vector middle_of_top(0.5 * s.cells[0] * s.spacing[0], s.cells[1] * s.spacing[1], 0.0);
+  const dimensionedScalar top("top", dimAcceleration * dimLength, gravity().value() & middle_of_top);
   gh -= top;
   ghf -= top;
   U.boundaryFieldRef() == vector::zero;

@@ -1,6 +1,8 @@
 // The OpenFOAM objects of one fluid, shared by the stages of its time step (momentum, pressure, interface).
 #pragma once
 
+#include <cmath>
+
 #include "fvCFD.H"
 #include "reference/demvof/fluid/case_folder.hpp"
 #include "reference/demvof/fluid/fluid.hpp"
@@ -35,7 +37,9 @@ struct Fluid::Fields {
   Vector boundary_force{};        // of the last step [N]
 
   Foam::dimensionedVector gravity() const {
-    return {"g", Foam::dimAcceleration, Foam::vector(0, -settings.gravity, 0)};
+    const double angle = settings.inclination * Foam::constant::mathematical::pi / 180.0;
+    return {"g", Foam::dimAcceleration,
+            settings.gravity * Foam::vector(std::sin(angle), -std::cos(angle), 0)};
   }
   double cell_volume() const { return settings.spacing[0] * settings.spacing[1] * settings.spacing[2]; }
 };

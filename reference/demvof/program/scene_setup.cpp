@@ -108,10 +108,13 @@ void check_scene(const Scene& scene) {
   for (std::size_t s = 0; s < sides; ++s) {
     if (scene.sides[s].kind == SideKind::periodic)
       refuse(scene, "a wall is periodic, allowed: no-slip, slip, open");
+    if (scene.sides[s].kind == SideKind::inlet || scene.sides[s].kind == SideKind::outlet)
+      refuse(scene, "a side is an inlet or an outlet, allowed: no-slip, slip, open");
     for (const double v : scene.sides[s].velocity) {
       if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
     }
   }
+  if (!scene.obstacles.empty()) refuse(scene, "it has obstacles, allowed: a tank without");
   if (bead_diameter(scene) > scene.reference->cell) {
     refuse(
         scene,
@@ -151,6 +154,7 @@ FluidSettings fluid_settings(const Scene& scene, const std::string& scratch) {
   f.cells = reference_cells(scene);
   f.spacing = {scene.tank[0] / f.cells[0], scene.tank[1] / f.cells[1], depth_of(scene) / f.cells[2]};
   f.gravity = scene.gravity;
+  f.inclination = scene.inclination;
   f.gas_density = scene.gas.density;
   f.gas_viscosity = scene.gas.viscosity;
   f.liquid_density = scene.liquid.density;
@@ -172,6 +176,7 @@ BeadSettings bead_settings(const Scene& scene, const std::string& scratch) {
   b.law = run_law(scene);
   b.dt = bead_dt(scene);
   b.gravity = scene.gravity;
+  b.inclination = scene.inclination;
   if (scene.gate) {
     b.gate = scene.gate->position;
     b.gate_height = scene.bed->box.upper[1] + 4.0 * b.diameter;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/scene/gravity.hpp"
+
 namespace demvof {
 
 namespace {
@@ -93,7 +95,7 @@ double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene) 
   double level = 0.0;
   for (const granvof::Box& box : scene.liquid_boxes) level = std::max(level, box.upper[1]);
   const double y = 0.5 * scene.grid.spacing[1];
-  const double own = level > 0.0 ? scene.liquid.density * scene.gravity * (level - y) : 0.0;
+  const double own = level > 0.0 ? scene.liquid.density * granvof::normal_gravity(scene) * (level - y) : 0.0;
   const std::vector<double>& pressure = run.fluid().view().pressure;
   const int first = static_cast<int>(std::lround(scene.bed->box.lower[0] / scene.grid.spacing[0]));
   const int last =

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/operators/continuity_closure.hpp"
+#include "solver/operators/continuity_tree.hpp"
 #include "solver/tests/operators/tank.hpp"
 
 namespace granvof {
@@ -29,13 +30,14 @@ Scene gated(Scene scene) {
 
 // Random fluxes of both phases, the gate closed to them; then the flux that closes continuity.
 struct Closed {
-  Closed(Scene given, double time) : s(std::move(given)), aperture(s.grid, s.scene) {
+  Closed(Scene given, double time, bool by_tree = false) : s(std::move(given)), aperture(s.grid, s.scene) {
     aperture.update(time);
     flux_s = s.random_faces(-1e-3, 1e-3);
     before = s.random_faces(-1e-3, 1e-3);
-    if (s.grid.open_top)
-      s.each(s.grid.fluid_faces(1),
-             [&](int, int, int, std::ptrdiff_t c) { before[1][c] = s.uniform(-1e-3, 1e-3); });
+    for (int d = 0; d < s.grid.dim; ++d)
+      if (s.grid.side(d, false).passes_fluid || s.grid.side(d, true).passes_fluid)
+        s.each(s.grid.fluid_faces(d),
+               [&](int, int, int, std::ptrdiff_t c) { before[d][c] = s.uniform(-1e-3, 1e-3); });
     for (int d = 0; d < s.grid.dim; ++d)
       s.each(s.grid.fluid_faces(d), [&](int, int, int, std::ptrdiff_t c) {
         before[d][c] *= aperture[d][c];
@@ -46,7 +48,10 @@ struct Closed {
       s.boundary.exchange(flux_s[d]);
     }
     after = before;
-    close_continuity(s.grid, s.boundary, aperture, flux_s, after);
+    if (!by_tree) return close_continuity(s.grid, s.boundary, aperture, flux_s, after);
+    ContinuityTree tree(s.grid);
+    tree.grow(aperture);
+    tree.close(s.boundary, flux_s, after);
   }
   double residual(const FaceField& flux_c) const {
     double largest = 0.0;
@@ -118,6 +123,41 @@ TEST(ContinuityClosure, GoesTheShortWayUpAndOutOfAnOpenTop) {
   EXPECT_NEAR(flux[1][s.grid.cells.index(2, 6, 0)], 0.15, 1e-15);
   EXPECT_NEAR(flux[1][s.grid.cells.index(1, 6, 0)], -0.15, 1e-15);
   EXPECT_EQ(flux[1][s.grid.cells.index(2, 3, 0)], 0.0);
+}
+
+// The same by the tree, where columns are cut by obstacles and fluid leaves through sides.
+TEST(ContinuityTree, ClosesEveryTankThroughOpenFacesOnly) {
+  const auto with_box = [](Scene scene) {
+    scene.obstacles = {{{0.2, 0.15, 0.0}, {0.5, 0.6, scene.dimensions == 3 ? 0.4 : 0.8}}};
+    return scene;
+  };
+  const auto with_outlet = [](Scene scene, int side) {
+    scene.sides[side].kind = SideKind::outlet;
+    return scene;
+  };
+  for (const int dim : {2, 3}) {
+    const std::vector<Scene> scenes{with_box(closed(dim)),
+                                    with_box(open_top(dim)),
+                                    with_box(joined(dim, {0})),
+                                    with_box(joined(dim, {0, 1})),
+                                    with_outlet(closed(dim), right),
+                                    with_outlet(with_box(closed(dim)), left),
+                                    with_outlet(with_outlet(closed(dim), left), bottom),
+                                    gated(with_outlet(closed(dim), right))};
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << dim << "D, tank " << i);
+      const Closed c(scenes[i], -1.0, true);
+      EXPECT_FALSE(c.s.grid.has_whole_columns());
+      EXPECT_GT(c.residual(c.before), 1e-3);
+      EXPECT_LT(c.residual(c.after), 1e-14);
+      for (int d = 0; d < dim; ++d)
+        c.s.each(c.s.grid.all_faces(d), [&](int, int, int, std::ptrdiff_t at) {
+          if (c.aperture[d][at] == 0.0) {
+            EXPECT_EQ(c.after[d][at], 0.0);
+          }
+        });
+    }
+  }
 }
 
 TEST(ContinuityClosure, APeriodicTankHasNoFirstColumn) {

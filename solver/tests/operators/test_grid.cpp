@@ -33,7 +33,8 @@ TEST(Grid, RangesOfAnOpenTopAndPeriodicSides) {
   scene.sides[top].kind = SideKind::open;
   make_periodic(scene, 2);
   const Tank s(scene);
-  EXPECT_TRUE(s.grid.open_top);
+  EXPECT_FALSE(s.grid.sealed());
+  EXPECT_TRUE(s.grid.has_whole_columns());
   expect_range(s.grid.inner_faces(1), {0, 1, 0}, {5, 3, 4});
   expect_range(s.grid.fluid_faces(1), {0, 1, 0}, {5, 4, 4});
   expect_range(s.grid.inner_faces(2), {0, 0, 0}, {5, 3, 4});

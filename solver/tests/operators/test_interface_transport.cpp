@@ -179,7 +179,7 @@ TEST(InterfaceTransport, ReportsWhatLeavesThroughTheOpenTop) {
     const double dt = 0.05;
     Field next(s.grid);
     const double left =
-        InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, alpha, Field(s.grid), flux, next);
+        InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, alpha, Field(s.grid), flux, next).total();
     EXPECT_NEAR(left, 0.3 * 0.5 * dt, 1e-14);  // speed times half the tank's top, depth 1 m
     EXPECT_NEAR((s.total(alpha) - s.total(next)) * s.grid.cell_volume, left, 1e-14);
   }

@@ -142,7 +142,7 @@ class AlarmRules : public ::testing::Test {
     });
     EXPECT_TRUE(set);
     changed.energy = moving();
-    monitors.update(changed, 0.0);
+    monitors.update(changed, 0.0, 0.0);
     alarms.check(changed, monitors, {100, 0});
     return alarms.raised();
   }

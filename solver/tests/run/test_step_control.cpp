@@ -126,16 +126,16 @@ TEST(Monitors, VolumesAndTheirErrors) {
   const auto start = monitors.values();
   EXPECT_NEAR(start.solid_volume, 0.57 * 0.05 * 0.04 * c.scene.tank[2], 1e-12);
   EXPECT_NEAR(start.liquid_volume, (0.16 * 0.06 - 0.57 * 0.05 * 0.04) * c.scene.tank[2], 1e-12);
-  monitors.update(c.state, 0.0);
+  monitors.update(c.state, 0.0, 0.0);
   EXPECT_LT(monitors.solid_volume_error(), 1e-15);
   c.state.f_s[c.at(1, 1)] += 0.01;  // displaces liquid where alpha = 1
-  monitors.update(c.state, 0.0);
+  monitors.update(c.state, 0.0, 0.0);
   EXPECT_NEAR(monitors.solid_volume_error(), 0.01 / (0.57 * 20.0), 1e-9);
   EXPECT_NEAR(monitors.liquid_volume_error(), 0.01 / (96.0 - 0.57 * 20.0), 1e-9);
   EXPECT_NEAR(monitors.solid_fraction_max(), 0.58, 1e-12);
   c.state.f_s[c.at(1, 1)] -= 0.01;
   c.state.alpha[c.at(9, 3)] = 0.5;
-  monitors.update(c.state, 0.5 * c.grid.cell_volume);  // it left through the top: no error
+  monitors.update(c.state, 0.5 * c.grid.cell_volume, 0.0);  // it left through the top: no error
   EXPECT_NEAR(monitors.solid_volume_error(), 0.01 / (0.57 * 20.0), 1e-9);  // the largest so far stays
   EXPECT_NEAR(monitors.liquid_volume_error(), 0.01 / (96.0 - 0.57 * 20.0), 1e-9);
 }

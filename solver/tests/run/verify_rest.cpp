@@ -62,7 +62,7 @@ TEST_P(Liquid, IsKeptToRounding) {
     Monitors monitors(run.grid, run.scene, run.now);
     double least = 0.0, most = 0.0;
     run.until(2.0, [&] {
-      monitors.update(run.now, run.last.liquid_left);
+      monitors.update(run.now, run.last.liquid_left, run.last.solid_left);
       const double* a = run.now.alpha.data();
       most = max_over(run.grid.cells, run.grid.all_cells(), most, [=](std::ptrdiff_t c) { return a[c]; });
       least =

@@ -235,7 +235,8 @@ TEST(Hash, ChangesWithPhysicsGeometryAndReference) {
   for (const char* change :
        {"solid.friction=0.41", "tank.size=[0.5, 0.12]", "tank.gravity=9.8", "walls.left=slip",
         "gas.density=1.2", "liquid.level=0.08", "bed.solid_fraction=0.58", "gate.speed=2", "gate=false",
-        "time.hold=0.1", "reference.seeds=[3]", "reference.floor=smooth"}) {
+        "time.hold=0.1", "reference.seeds=[3]", "reference.floor=smooth", "tank.inclination=5",
+        "walls.right.outflow_pressure=0", "obstacle={x0=[0.2], x1=[0.22], y0=[0], y1=[0.02]}"}) {
     EXPECT_NE(small({change}).hash, small().hash) << change;
     EXPECT_NE(small({change}).reference_hash, small().reference_hash) << change;
   }
@@ -270,6 +271,39 @@ TEST(Hash, OfTheReferenceIgnoresTheContinuumsModel) {
     EXPECT_NE(small({change}).hash, small().hash) << change;
     EXPECT_EQ(small({change}).reference_hash, small().reference_hash) << change;
   }
+}
+
+TEST(Obstacles, AreReadAsOftenAsTheyStand) {
+  const std::string two = std::string(small_case) + R"([[obstacle]]
+x0 = 0.2
+x1 = 0.22
+y0 = 0
+y1 = 0.02
+[[obstacle]]
+x0 = 0.3
+x1 = 0.31
+y0 = 0.05
+y1 = 0.12
+)";
+  const Scene scene = parse_scene(two, "two.toml");
+  ASSERT_EQ(scene.obstacles.size(), 2U);
+  EXPECT_EQ(scene.obstacles[1], (Box{{0.3, 0.05, 0.0}, {0.31, 0.12, 1.0}}));
+  EXPECT_NE(scene.resolved.find("[obstacle]\nx0 = [0.2, 0.3]"), std::string::npos) << scene.resolved;
+  EXPECT_EQ(parse_scene(scene.resolved, "resolved.toml").obstacles, scene.obstacles);
+  EXPECT_TRUE(parse_scene(two, "two.toml", std::vector<std::string>{"obstacle=false"}).obstacles.empty());
+  // The place of a fault is that of its line.
+  std::string beside = two;
+  beside.replace(beside.find("x1 = 0.22"), 9, "x1 = 0.225");
+  EXPECT_EQ(refusal_of(beside).substr(0, 29), "small.toml:39:6: obstacle.x1:");
+}
+
+TEST(Inlet, TakesWhatIsLeftOutFromTheCase) {
+  const Scene scene = small({"walls.left.inflow=0.1", "walls.right.outflow_pressure=3"});
+  EXPECT_EQ(scene.sides[left].kind, SideKind::inlet);
+  EXPECT_EQ(scene.sides[left].inflow, (Inflow{0.1, 0.0, 1.0}));
+  EXPECT_EQ(scene.sides[right].kind, SideKind::outlet);
+  EXPECT_EQ(scene.sides[right].outflow, (Outflow{3.0, 0.07}));
+  EXPECT_EQ(parse_scene(scene.resolved, "resolved.toml").sides, scene.sides);
 }
 
 }  // namespace

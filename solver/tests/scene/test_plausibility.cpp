@@ -73,6 +73,8 @@ const std::vector<Mistake> mistakes{
     {"oil_in_cP", {"liquid.density=950", "liquid.viscosity=20"}, {"liquid.viscosity"}, "= 20 Pa s"},
     {"air_in_cP", {"gas.viscosity=0.018"}, {"gas.viscosity"}, "4e-06 to 0.0001 Pa s"},
     {"gravity_in_cm", {"tank.gravity=981"}, {"tank.gravity"}, "= 981 m/s2: usual is 1 to 30"},
+    {"from_the_vertical", {"tank.inclination=70"}, {"tank.inclination"}, "= 70 degrees: usual is at most 60"},
+    {"inflow_in_mm", {"walls.right.inflow=200"}, {"walls.right.inflow"}, "= 200 m/s"},
     {"gravity_in_km", {"tank.gravity=0.00981"}, {"tank.gravity"}, "= 0.00981 m/s2"},
     {"gate_in_mm", {"gate.speed=1000"}, {"gate.speed"}, "= 1000 m/s"},
     {"gate_too_slow", {"gate.speed=0.001"}, {"gate.speed"}, "usual is 0.07 to 50 m/s"},

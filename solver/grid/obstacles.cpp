@@ -1,0 +1,131 @@
+#include "solver/grid/obstacles.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace granvof {
+namespace {
+
+template <typename Visit>
+void for_places(const std::array<int, 3>& lower, const std::array<int, 3>& upper, Visit&& visit) {
+  for (int k = lower[2]; k < upper[2]; ++k)
+    for (int j = lower[1]; j < upper[1]; ++j)
+      for (int i = lower[0]; i < upper[0]; ++i) visit(std::array<int, 3>{i, j, k});
+}
+
+std::ptrdiff_t index(const Layout& l, const std::array<int, 3>& at) {
+  return l.index(at[0], at[1], at[2]);
+}
+
+std::array<int, 3> place_of(const Layout& l, std::ptrdiff_t c) {
+  std::array<int, 3> at{};
+  for (int d = 0; d < 3; ++d) {
+    const int wide = l.n[d] + 2 * l.ghost[d];
+    at[d] = static_cast<int>(c / l.stride[d] % wide) - l.ghost[d];
+  }
+  return at;
+}
+
+// Not beyond a side that is none of a period.
+bool in_the_tank(const Layout& l, const std::array<int, 3>& at) {
+  for (int d = 0; d < 3; ++d)
+    if (!l.periodic[d] && (at[d] < 0 || at[d] >= l.n[d])) return false;
+  return true;
+}
+
+}  // namespace
+
+Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::vector<Box>& boxes) {
+  if (boxes.empty()) return;
+  solid_.assign(l.size, 0);
+  for (const Box& box : boxes) {
+    std::array<int, 3> lower{0, 0, 0}, upper{1, 1, 1};
+    for (int d = 0; d < dim; ++d) {
+      lower[d] = static_cast<int>(std::lround(box.lower[d] / spacing[d]));
+      upper[d] = static_cast<int>(std::lround(box.upper[d] / spacing[d]));
+    }
+    for_places(lower, upper, [&](const std::array<int, 3>& at) {
+      char& solid = solid_[static_cast<std::size_t>(index(l, at))];
+      if (solid == 0) cells_.push_back(index(l, at));
+      solid = 1;
+    });
+  }
+  // Copies beyond joined ends.
+  std::array<int, 3> lower{}, upper = l.n;
+  for (int d = 0; d < dim; ++d) {
+    if (!l.periodic[d]) continue;
+    lower[d] = -l.ghost[d];
+    upper[d] += l.ghost[d];
+  }
+  for_places(lower, upper, [&](const std::array<int, 3>& at) {
+    std::array<int, 3> inside{};
+    for (int d = 0; d < 3; ++d) inside[d] = (at[d] % l.n[d] + l.n[d]) % l.n[d];
+    solid_[static_cast<std::size_t>(index(l, at))] = solid_[static_cast<std::size_t>(index(l, inside))];
+  });
+  for (int d = 0; d < dim; ++d) {
+    std::array<int, 3> end = l.n;
+    end[d] += 1;
+    for_places({0, 0, 0}, end, [&](const std::array<int, 3>& at) {
+      const std::ptrdiff_t c = index(l, at);
+      if (is_solid(c) || is_solid(c - l.stride[d])) faces_[d].push_back(c);
+    });
+    for (int e = d + 1; e < dim; ++e) find_edges(l, d, e);
+  }
+  find_surface(l, dim);
+}
+
+// Not those on sides of the tank, which are walls themselves.
+void Obstacles::find_edges(const Layout& l, int d, int e) {
+  std::array<int, 3> lower{}, upper = l.n;
+  for (const int axis : {d, e}) lower[axis] = l.periodic[axis] ? 0 : 1;
+  const std::ptrdiff_t s = l.stride[d], t = l.stride[e];
+  for_places(lower, upper, [&](const std::array<int, 3>& at) {
+    Edge edge;
+    edge.place = at;
+    edge.at = index(l, at);
+    for (const std::ptrdiff_t c : {edge.at, edge.at - s, edge.at - t, edge.at - s - t})
+      if (!is_solid(c)) edge.open[edge.cells++] = c;
+    if (edge.cells == 0 || edge.cells == 4) return;
+    const auto take = [&](int component, std::ptrdiff_t face, std::ptrdiff_t across) {
+      if (!is_solid(face) && !is_solid(face - across)) edge.face[edge.faces++] = {component, face};
+    };
+    take(d, edge.at, s);
+    take(d, edge.at - t, s);
+    take(e, edge.at, t);
+    take(e, edge.at - s, t);
+    edge.flat = edge.cells == 2 && edge.faces == 1;
+    edges_[d + e - 1].push_back(edge);
+  });
+}
+
+void Obstacles::find_surface(const Layout& l, int dim) {
+  for (const std::ptrdiff_t c : cells_) {
+    // Nearest first: through faces, else across edges and corners.
+    for (int reach = 1; reach <= dim; ++reach) {
+      Surface surface{c, {}};
+      const int deep = dim == 3 ? 1 : 0;
+      for_places({-1, -1, -deep}, {2, 2, deep + 1}, [&](const std::array<int, 3>& step) {
+        if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) != reach) return;
+        std::array<int, 3> at = place_of(l, c);
+        for (int d = 0; d < 3; ++d) at[d] += step[d];
+        if (!in_the_tank(l, at)) return;
+        const std::ptrdiff_t other =
+            c + step[0] * l.stride[0] + step[1] * l.stride[1] + step[2] * l.stride[2];
+        if (!is_solid(other)) surface.beside.push_back(other);
+      });
+      if (surface.beside.empty()) continue;
+      surface_.push_back(surface);
+      break;
+    }
+  }
+}
+
+void Obstacles::extend(double* values) const {
+  for (const Surface& surface : surface_) {
+    double sum = 0.0;
+    for (const std::ptrdiff_t c : surface.beside) sum += values[c];
+    values[surface.cell] = sum / static_cast<double>(surface.beside.size());
+  }
+}
+
+}  // namespace granvof

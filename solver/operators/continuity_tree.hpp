@@ -1,0 +1,37 @@
+// The same as continuity_closure.hpp where columns do not reach from the floor to the top: with obstacles, or
+// with sides other than the top through which something flows.
+#pragma once
+
+#include <vector>
+
+#include "solver/grid/boundary.hpp"
+#include "solver/operators/aperture.hpp"
+
+namespace granvof {
+
+// A tree over the open faces of the tank: every cell hands what it gains to the next on its way out through
+// the nearest side that passes the fluid; without one, to the first cell of its part of the tank, where the
+// sum is zero but for rounding.
+class ContinuityTree {
+ public:
+  explicit ContinuityTree(const Grid& grid) : grid_(grid), gain_(grid) {}
+
+  // After the gate has moved, too.
+  void grow(const Aperture& aperture);
+  // Adds to flux_c [m/s] what closes continuity, as close_continuity().
+  void close(const Boundary& boundary, const FaceField& flux_s, FaceField& flux_c);
+
+ private:
+  struct Step {
+    std::ptrdiff_t cell, next;  // next: -1 where the face is on a side
+    int direction;              // of the face
+    std::ptrdiff_t face;
+    double sign;  // of a flux that leaves the cell through it
+  };
+
+  const Grid& grid_;
+  std::vector<Step> steps_;  // from the roots outwards
+  Field gain_;               // -div of both fluxes [1/s]
+};
+
+}  // namespace granvof

@@ -1,0 +1,266 @@
+// Inlets and outlets: what comes in and leaves is accounted, and flows as theory has it.
+#include <cmath>
+#include <ostream>
+
+#include "solver/closures/drag.hpp"
+#include "solver/run/alarms.hpp"
+#include "solver/run/monitors.hpp"
+#include "solver/tests/run/small_runs.hpp"
+
+namespace granvof {
+namespace {
+
+using test::Simulation;
+
+Scene channel(const std::vector<std::string>& overrides) {
+  return parse_scene(R"([scene]
+name = "channel"
+[tank]
+size = [0.12, 0.04]
+[grid]
+dx = 0.005
+[walls]
+all = "slip"
+left = { inflow = 0.1 }
+right = { outflow_pressure = 0 }
+[gas]
+density = 1
+viscosity = 1e-5
+[liquid]
+density = 1000
+viscosity = 1e-3
+level = 0.04
+[solid]
+density = 2500
+diameter = 2e-3
+friction = 0.4
+[numerics]
+volume_tolerance = 1e-10
+linear_tolerance = 1e-8
+[time]
+end = 100
+)",
+                     "channel", overrides);
+}
+
+struct Account {
+  explicit Account(Simulation& run)
+      : run_(run), monitors(run.grid, run.scene, run.now), start(run.now.energy) {}
+  void until(double time) {
+    run_.until(time, [&] {
+      monitors.update(run_.now, run_.last.liquid_left, run_.last.solid_left);
+      liquid_left += run_.last.liquid_left;
+      solid_left += run_.last.solid_left;
+    });
+  }
+  double unaccounted() const {  // of the budget [J]
+    const EnergyTerms& e = run_.now.energy;
+    return e.stored() - start.stored() -
+           (e.walls + e.dilatancy + e.shear_dilatancy - e.outflow - e.physical() - e.numerical() +
+            e.residual);
+  }
+
+ private:
+  Simulation& run_;
+
+ public:
+  Monitors monitors;
+  EnergyTerms start;
+  double liquid_left = 0.0, solid_left = 0.0;
+};
+
+// Between slip walls what comes in goes through as a plug, along every axis and both ways.
+TEST(Plug, GoesThrough) {
+  for (int way = 0; way < 3; ++way) {
+    std::string text = R"([scene]
+name = "plug"
+[tank]
+size = [0.06, 0.06]
+[grid]
+dx = 0.005
+[walls]
+all = "slip"
+)";
+    text += way == 0   ? "left = { inflow = 0.1 }\nright = { outflow_pressure = 0 }\n"
+            : way == 1 ? "right = { inflow = 0.1 }\nleft = { outflow_pressure = 0 }\n"
+                       : "bottom = { inflow = 0.1 }\ntop = { outflow_pressure = 0 }\n";
+    text += R"([gas]
+density = 1
+viscosity = 1e-5
+[liquid]
+density = 1000
+viscosity = 1e-3
+level = 0.06
+[numerics]
+volume_tolerance = 1e-10
+linear_tolerance = 1e-8
+[time]
+end = 10
+)";
+    Simulation run(parse_scene(text, "plug", {}));
+    Account account(run);
+    account.until(1.0);
+    ASSERT_FALSE(HasFatalFailure());
+    const int d = way == 2 ? 1 : 0;
+    const double speed = way == 1 ? -0.1 : 0.1;
+    double off = 0.0, across = 0.0;
+    const double* along = run.now.u_c[d].data();
+    const double* other = run.now.u_c[1 - d].data();
+    off = max_over(run.grid.cells, run.grid.flux_faces(d), 0.0,
+                   [=](std::ptrdiff_t c) { return std::fabs(along[c] - speed); });
+    across = max_over(run.grid.cells, run.grid.inner_faces(1 - d), 0.0,
+                      [=](std::ptrdiff_t c) { return std::fabs(other[c]); });
+    EXPECT_LT(off, 1e-6) << way;
+    EXPECT_LT(across, 1e-6) << way;
+    EXPECT_LT(account.monitors.liquid_volume_error(), 1e-12) << way;
+    EXPECT_NEAR(account.liquid_left, 0.0, 1e-9) << way;
+    EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(account.start, run.now.energy)) << way;
+  }
+}
+
+// Water comes into a channel of gas: what has come in is there, whatever it does there.
+TEST(Volume, OfWhatComesInIsThere) {
+  for (const char* scheme : {"cicsam", "plic", "upwind"}) {
+    Simulation run(
+        channel({"walls.left.inflow=0.2", "walls.left.inflow_liquid_share=0.5", "liquid.level=0.01",
+                 "walls.right.outflow_level=0", std::string("numerics.interface_scheme=") + scheme}));
+    Account account(run);
+    account.until(0.4);
+    ASSERT_FALSE(HasFatalFailure()) << scheme;
+    EXPECT_LT(account.monitors.liquid_volume_error(), 1e-12) << scheme;
+    const double given = 0.2 * 0.5 * 0.04 * 0.4;
+    EXPECT_GT(account.monitors.liquid_volume(run.now), 0.012 * 0.1) << scheme;
+    EXPECT_LT(account.liquid_left, 0.0) << scheme;  // more has come in than has left
+    EXPECT_GT(account.liquid_left, -given * 1.001) << scheme;
+    EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(account.start, run.now.energy))
+        << scheme;
+    EXPECT_LT(std::fabs(run.now.energy.residual), 0.01 * energy_turnover(account.start, run.now.energy))
+        << scheme;
+  }
+}
+
+// Water at rest behind an outlet whose level is its own stays.
+TEST(Outlet, HoldsAPoolOfItsLevel) {
+  Simulation run(channel({"walls.left=slip", "liquid.level=0.02", "walls.right.outflow_level=0.02"}));
+  run.until(0.5);
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_LT(run.fastest(run.now.u_c), 1e-9);
+}
+
+// Of a lower level it drains the pool, and the potential energy that leaves is accounted.
+TEST(Outlet, DrainsAPoolToItsLevel) {
+  Simulation run(channel({"walls.left=slip", "liquid.level=0.03", "walls.right.outflow_level=0.02",
+                          "walls.top=open", "liquid.viscosity=2"}));
+  Account account(run);
+  const double before = account.monitors.liquid_volume(run.now);
+  account.until(4.0);
+  ASSERT_FALSE(HasFatalFailure());
+  const double after = account.monitors.liquid_volume(run.now);
+  EXPECT_NEAR(after, 0.12 * 0.02, 0.02 * after);
+  EXPECT_NEAR(account.liquid_left, before - after, 1e-10 * before);
+  // At least the weight of what left, at the height of its middle, less what it was given by the pressure
+  // there.
+  const EnergyTerms& e = run.now.energy;
+  EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(account.start, e));
+  EXPECT_LT(std::fabs(e.residual), 0.01 * energy_turnover(account.start, e));
+}
+
+// Viscous flow between plates from an inlet becomes Poiseuille's, and its pressure drop with it.
+TEST(Plates, TurnAPlugIntoAParabola) {
+  Simulation run(
+      channel({"walls.all=no-slip", "tank.size=[0.12, 0.02]", "grid.dx=0.00125", "liquid.level=0.02",
+               "liquid.viscosity=0.5", "walls.left.inflow=0.02", "model.les=false", "tank.gravity=0"}));
+  run.until(2.0);
+  ASSERT_FALSE(HasFatalFailure());
+  const double depth = 0.02, mean = 0.02, mu = 0.5, h = run.grid.h[1];
+  double off = 0.0;
+  for (int j = 0; j < 16; ++j) {
+    const double y = (j + 0.5) * h;
+    off = std::fmax(
+        off, std::fabs(run.now.u_c[0][run.cell(64, j)] - 6.0 * mean * y * (depth - y) / (depth * depth)));
+  }
+  EXPECT_LT(off, 0.01 * mean);
+  const double drop = run.now.p_c[run.cell(40, 8)] - run.now.p_c[run.cell(80, 8)];
+  EXPECT_NEAR(drop, 12.0 * mu * mean / (depth * depth) * 40 * run.grid.h[0], 0.01 * drop);
+}
+
+// Water that comes up through a bed at rest: the pressure falls by the drag of the law in question, beta u /
+// f_c^2 per length at the superficial speed u (at low Re the 150 of Ergun), beside the weight of the water.
+TEST(Bed, TakesThePressureOfErgun) {
+  for (const char* law : {"paper", "di-felice", "beetstra"}) {
+    const std::string text = std::string(R"([scene]
+name = "ergun"
+[tank]
+size = [0.02, 0.08]
+[grid]
+dx = 0.005
+[walls]
+all = "slip"
+bottom = { inflow = 0.002 }
+top = "open"
+[gas]
+density = 1
+viscosity = 1e-5
+[liquid]
+density = 1000
+viscosity = 1e-3
+level = 0.08
+[solid]
+density = 2500
+diameter = 2e-3
+friction = 0.4
+[bed]
+length = 0.02
+height = 0.05
+solid_fraction = 0.575
+[model]
+preset = "paper"
+drag_law = ")") + law + R"("
+[time]
+end = 10
+)";
+    Simulation run(parse_scene(text, "ergun", {}));
+    Account account(run);
+    account.until(2.0);
+    ASSERT_FALSE(HasFatalFailure()) << law;
+    double drop = 0.0, theory = 0.0;
+    const double h = run.grid.h[1], u = 0.002, g = run.scene.gravity;
+    for (int j = 2; j < 7; ++j) {
+      const std::ptrdiff_t c = run.cell(1, j), below = run.cell(1, j - 1);
+      drop += run.now.p_c[below] - run.now.p_c[c] - 1000.0 * g * h;
+      const double f = 0.5 * (run.now.f_s[c] + run.now.f_s[below]);
+      closures::with_drag_law(run.scene.model.drag_law, [&](auto of) {
+        const double slip = u / (1.0 - f);
+        const double beta = closures::drag_coefficient(of, f, 1.0, slip, run.scene.gas, run.scene.liquid,
+                                                       run.scene.solid.diameter);
+        theory += beta * slip / (1.0 - f) * h;
+      });
+    }
+    EXPECT_NEAR(drop, theory, 0.005 * theory) << law;
+    EXPECT_GT(drop, 5.0) << law;
+    for (int j = 2; j < 7; ++j)
+      EXPECT_LT(std::fabs(run.now.u_s[1][run.cell(1, j)]), 1e-5) << law;  // it rests
+    EXPECT_LT(account.monitors.solid_volume_error(), 1e-12) << law;
+    EXPECT_LT(account.monitors.liquid_volume_error(), 1e-12) << law;
+  }
+}
+
+// Grains that come in and go out are counted, and carry their energy.
+TEST(Grains, ComeInAndLeave) {
+  Simulation run(channel({"walls.left.inflow_solid_fraction=0.1", "tank.gravity=0", "liquid.level=0.04",
+                          "tank.size=[0.06, 0.04]", "solid.density=1500"}));
+  Account account(run);
+  account.until(0.2);
+  const double came = 0.1 * 0.1 * 0.04 * 0.2;  // f_s u H t per depth, none of it at the outlet yet
+  EXPECT_NEAR(account.solid_left, -came, 1e-3 * came);
+  account.until(2.0);
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_LT(account.monitors.liquid_volume_error(), 1e-11);
+  // As much leaves as comes in: the channel is full of what came.
+  EXPECT_NEAR(account.monitors.solid_volume(run.now), 0.1 * 0.06 * 0.04, 0.02 * 0.1 * 0.06 * 0.04);
+  EXPECT_NEAR(account.monitors.solid_volume(run.now), -account.solid_left, 1e-10);
+  EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(account.start, run.now.energy));
+}
+
+}  // namespace
+}  // namespace granvof
