@@ -16,6 +16,7 @@
 #include "compare/output/write.hpp"
 #include "compare/tests/files_stated.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/seal.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
