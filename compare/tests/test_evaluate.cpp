@@ -16,6 +16,7 @@
 #include "compare/output/write.hpp"
 #include "compare/tests/files_stated.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/seal.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
@@ -382,7 +383,7 @@ TEST_F(Evaluate, ARunOfAnEarlierVersionIsAnError) {
 TEST_F(Evaluate, ARunJsonInWhichADigitWasChangedIsAnError) {
   write_run("s1", series(0.1));
   const std::string file = paths_.runs / "s1" / "run.json", whole = read_file(file);
-  EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::agree);
+  EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::agrees);
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = whole;
     text.replace(text.find(from), from.size(), to);
