@@ -12,6 +12,7 @@
 #include "compare/checks/table.hpp"
 #include "compare/study/ablate.hpp"
 #include "compare/study/advise_scene.hpp"
+#include "compare/study/budget.hpp"
 #include "compare/study/charts.hpp"
 #include "compare/study/runner.hpp"
 #include "compare/study/study_file.hpp"
@@ -56,8 +57,8 @@ std::vector<Part> chosen_parts(const Study& study, const std::vector<std::string
 const std::map<std::string, Against> references{
     {"DEM", Against::dem}, {"theory", Against::theory}, {"finest", Against::finest}};
 
-// "5%" or "0.05". Throws std::runtime_error.
-double read_tolerance(const std::string& text) {
+// "5%" or "0.05". Throws std::runtime_error, which names the option.
+double read_share(const std::string& option, const std::string& text) {
   const bool percent = text.ends_with('%');
   const std::string number = percent ? text.substr(0, text.size() - 1) : text;
   double value = 0.0;
@@ -66,7 +67,7 @@ double read_tolerance(const std::string& text) {
   if (percent) value /= 100.0;
   if (!whole || !(value > 0.0 && value < 1.0))
     throw std::runtime_error(
-        fmt::format("--tolerance: '{}' given; allowed: more than 0 and less than 1, or as 5%", text));
+        fmt::format("{}: '{}' given; allowed: more than 0 and less than 1, or as 5%", option, text));
   return value;
 }
 
@@ -90,11 +91,32 @@ void require_different_grids(const AdviseInput& input) {
   }
 }
 
-// Those of its chart, else twice, once, half and a quarter of the case's own.
-std::vector<double> cells_for(const Chart* chart, const Scene& scene) {
-  if (chart) return chart->grids;
-  const double cell = scene.grid.spacing[0];
-  return {2.0 * cell, cell, 0.5 * cell, 0.25 * cell};
+// What a run may cost, and what was known before it.
+void print_plan(const Plan& plan) {
+  fmt::print(stderr, "plan, at most (estimated, on one core):\n");
+  for (const PlannedGrid& grid : plan.grids)
+    fmt::print(stderr, "  {:.4g} mm: {} run{}, {} kept; {}\n", 1e3 * grid.cell, grid.runs,
+               grid.runs == 1 ? "" : "s", grid.kept, duration_text(grid.core_seconds));
+  fmt::print(stderr, "  in all {}\n", duration_text(plan.core_seconds()));
+}
+
+// The plan of a walk, its finest cells dropped until it is within the budget. Throws std::runtime_error where
+// two cell sizes are beyond it.
+Plan plan_within(AdviseInput& input, const std::vector<Method>& methods, const std::vector<Part>& parts,
+                 std::optional<double> budget, Runner& runner) {
+  for (;;) {
+    Plan plan = plan_of(input.cells, jobs_of(input, methods, parts), runner);
+    if (!budget || plan.core_seconds() <= *budget) return plan;
+    if (input.cells.size() == 2) {
+      print_plan(plan);
+      throw std::runtime_error(
+          fmt::format("--budget: {} given; the two coarsest grids may take {}: give more, or coarser --cells",
+                      duration_text(*budget), duration_text(plan.core_seconds())));
+    }
+    fmt::print(stderr, "beyond the budget of {}: {:.4g} mm are left out (in all {})\n",
+               duration_text(*budget), 1e3 * input.cells.back(), duration_text(plan.core_seconds()));
+    input.cells.pop_back();
+  }
 }
 
 }  // namespace
@@ -107,7 +129,10 @@ struct StudyCommands::Options {
   fs::path cases = "cases", records = "reference/results";
   std::vector<std::string> set, parts, scenes;
   std::vector<double> cells;
-  std::string metric, tolerance, against;
+  std::string metric, tolerance, against, budget;
+  std::vector<std::string> metrics;
+  std::string change = "5%";
+  fs::path kept = "compare/kept/verify/results.json";
   CLI::App* ablate = nullptr;
   CLI::App* advise = nullptr;
   CLI::App* charts = nullptr;
@@ -136,10 +161,20 @@ struct StudyCommands::Options {
   int run_ablate() {
     const Study read = read_study(study);
     const Scene scene = load_scene(case_file, set);
-    const auto metrics = metrics_of_scene(read_table(checks), scene.name);
+    const auto rows = metrics_of_scene(read_table(checks), scene.name);
+    std::vector<Check> looked_at = metrics.empty() ? rows : std::vector<Check>{};
+    std::vector<Quantity> curves;
+    const double moved = read_share("--tolerance", change);
+    for (const std::string& name : metrics) {
+      const Quantity quantity = parse_quantity(name, std::nullopt, rows);
+      if (quantity.is_curve)
+        curves.push_back(quantity);
+      else
+        looked_at.push_back(check_of(quantity, moved, rows));
+    }
     CachedRunner made(runner);
-    const AblateReport report =
-        granvof::compare::ablate(case_file, set, chosen_parts(read, parts), metrics, records, made);
+    const AblateReport report = granvof::compare::ablate(case_file, set, chosen_parts(read, parts), looked_at,
+                                                         records, made, curves, moved);
     const fs::path directory = out.empty() ? fs::path("out/ablate") / scene.name : out;
     write(directory, "ablate.csv", ablate_csv(report));
     write(directory, "ablate.json", ablate_json(report));
@@ -151,24 +186,36 @@ struct StudyCommands::Options {
     const Study read = read_study(study);
     const Scene scene = load_scene(case_file, set);
     const Chart* chart = chart_of(read, scene.name);
-    const auto rows = metrics_of_scene(read_table(checks), scene.name);
-    AdviseInput input{case_file,
-                      set,
-                      parse_quantity(metric, std::nullopt, rows),
-                      read_tolerance(tolerance),
-                      cells.empty() ? cells_for(chart, scene) : cells,
-                      records,
-                      rows,
-                      {}};
+    const Table table = read_table(checks);
+    const auto rows = metrics_of_scene(table, scene.name);
+    AdviseInput input{
+        case_file,
+        set,
+        parse_quantity(metric, std::nullopt, rows),
+        read_share("--tolerance", tolerance),
+        cells.empty() ? cells_to_advise(chart ? chart->grids : std::vector<double>{}, scene) : cells,
+        records,
+        rows,
+        {}};
     std::sort(input.cells.begin(), input.cells.end(), std::greater<>());
     require_different_grids(input);
     if (chart) input.panels = chart->panels;
     if (!against.empty()) input.against = references.at(against);
+    input.like = like_scenes(scene, input.quantity, table, read_known_rows(kept), cases);
+    std::optional<double> limit;
+    if (!budget.empty()) limit = read_duration(budget);
+    const auto methods = methods_to_advise(read, chart);
     CachedRunner made(runner);
-    const AdviseReport report = advise_scene(input, methods_of(read, chart), read.parts, made);
+    print_plan(plan_within(input, methods, read.parts, limit, made));
+    std::optional<BudgetedRunner> kept_to;
+    if (limit) kept_to.emplace(made, *limit);
+    Runner& used = kept_to ? static_cast<Runner&>(*kept_to) : made;
+    const AdviseReport report = advise_scene(input, methods, read.parts, used);
     const fs::path directory = out.empty() ? fs::path("out/advise") : out;
     write(directory, scene.name + ".json", advise_json(report));
     fmt::print("{}", advise_text(report));
+    if (kept_to && kept_to->left_out() > 0)
+      fmt::print("{} runs left out: the budget was spent\n", kept_to->left_out());
     if (!report.advice.chosen) return 1;
     const std::string name = scene.name + "-advised";
     write(directory, name + ".toml", advised_case(report, directory, name));
@@ -205,6 +252,17 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
   options_->add_runner(*options_->ablate);
   options_->ablate->add_option("--part", options_->parts, "only these parts (may be given again)")
       ->allow_extra_args(false);
+  options_->ablate
+      ->add_option(
+          "--metric", options_->metrics,
+          "look at this metric (NAME, NAME@AT) or curve, in any scene (may be given again; default: the rows "
+          "of the table of checks)")
+      ->allow_extra_args(false);
+  options_->ablate
+      ->add_option(
+          "--tolerance", options_->change,
+          "what a metric without a row may change by, of the full model's value or of the curve's range")
+      ->capture_default_str();
 
   options_->advise = app.add_subcommand(
       "advise",
@@ -217,14 +275,25 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
   options_->advise->add_option("--tolerance", options_->tolerance, "relative error, as 5% or 0.05")
       ->required();
   options_->advise
-      ->add_option("--cells", options_->cells,
-                   "cell sizes [m]; the smallest only confirms (default: those of the chart)")
+      ->add_option(
+          "--cells", options_->cells,
+          "cell sizes [m]; the smallest only confirms (default: those of the chart, none below a grain)")
       ->check(CLI::PositiveNumber)
       ->delimiter(',');
   options_->advise
       ->add_option("--against", options_->against,
                    "reference: DEM, theory or finest (default: the first of these that there is)")
       ->check(CLI::IsMember(references));
+
+  options_->advise->add_option(
+      "--budget", options_->budget,
+      "CPU time that the runs may take, as 90s, 10min or 2h: fine grids are left out, or it "
+      "is refused");
+  options_->advise
+      ->add_option("--kept", options_->kept, "results that tell the model's error in scenes with a record")
+      ->capture_default_str();
+  options_->advise->add_option("--cases", options_->cases, "case files of those scenes")
+      ->capture_default_str();
 
   options_->charts =
       app.add_subcommand("charts", "error against cost: all methods on all grids of the study");

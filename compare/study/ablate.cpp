@@ -85,7 +85,17 @@ std::optional<double> reference_of(const Check& check, const Run& run, const fs:
   return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
+Effect effect_of_curve(const AblatedMetric& metric, const Run& run) {
+  Effect effect;
+  effect.tolerance = metric.check.tolerance.value;
+  effect.value = relative_distance(*metric.curve, observe(*metric.curve, run), metric.full_curve);
+  effect.change = effect.value;
+  effect.beyond = !effect.value || *effect.value > effect.tolerance;
+  return effect;
+}
+
 Effect effect_of(const AblatedMetric& metric, const Run& run) {
+  if (metric.curve) return effect_of_curve(metric, run);
   Effect effect;
   const Check& check = metric.check;
   effect.value = measure(check, run);
@@ -165,12 +175,25 @@ std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene
   return chosen;
 }
 
+Check check_of(const Quantity& quantity, double tolerance, const std::vector<Check>& rows) {
+  for (const Check& row : rows)
+    if (!quantity.is_curve && row.metric == quantity.name && row.parameters.at == quantity.parameters.at)
+      return row;
+  Check check;
+  check.metric = quantity.name;
+  check.label = quantity.is_curve ? "curve" : "";
+  check.parameters = quantity.parameters;
+  check.tolerance = {tolerance, true, ""};
+  return check;
+}
+
 AblateReport ablate(const fs::path& case_file, const std::vector<std::string>& set,
                     const std::vector<Part>& parts, const std::vector<Check>& checks, const fs::path& records,
-                    Runner& runner) {
-  if (checks.empty())
+                    Runner& runner, const std::vector<Quantity>& curves, double curve_tolerance) {
+  if (checks.empty() && curves.empty())
     throw std::runtime_error(
-        fmt::format("{}: the table of checks has no metric of this scene", case_file.string()));
+        fmt::format("{}: the table of checks has no metric of this scene; --metric names what to look at",
+                    case_file.string()));
   const Scene scene = load_scene(case_file, set);
   const Outcome full = runner.run({case_file, set});
   if (!full.run) throw std::runtime_error(fmt::format("{}: {}", scene.name, full.failure));
@@ -180,6 +203,12 @@ AblateReport ablate(const fs::path& case_file, const std::vector<std::string>& s
   for (const Check& check : checks)
     report.metrics.push_back({check, std::string(find_metric(check.metric)->unit), measure(check, *full.run),
                               reference_of(check, *full.run, records)});
+  for (const Quantity& quantity : curves) {
+    Observed whole = observe(quantity, *full.run);
+    if (!whole.defined()) throw std::runtime_error(fmt::format("{}: {}", scene.name, whole.note));
+    report.metrics.push_back(
+        {check_of(quantity, curve_tolerance, {}), "-", 0.0, std::nullopt, quantity, std::move(whole)});
+  }
   report.rows.push_back(row_of("full model", full, report.metrics));
   report.rows.back().set = set;
   for (const Part& part : parts_for(parts, scene)) {

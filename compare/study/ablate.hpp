@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/checks/check.hpp"
+#include "compare/study/quantity.hpp"
 #include "compare/study/runner.hpp"
 #include "compare/study/study_file.hpp"
 
@@ -18,6 +19,10 @@ struct AblatedMetric {
   std::string unit;
   std::optional<double> full;
   std::optional<double> reference;  // the row's; of records their mean; none where the row only bounds
+  // Of a curve: its value is how far the run's is from the full model's, relative [-]; that of the full model
+  // is 0.
+  std::optional<Quantity> curve = std::nullopt;
+  Observed full_curve{};
 };
 
 // One metric without a part.
@@ -62,12 +67,18 @@ std::vector<std::string> overrides_of(const Part& part, const Scene& scene);
 // a second run.
 std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene);
 
+// What is to be looked at in any scene: the row of `rows` (metrics_of_scene()) where there is one of the same
+// metric and instant, else the metric or curve with a tolerance relative to the full model's value (of a
+// curve to its range).
+Check check_of(const Quantity& quantity, double tolerance, const std::vector<Check>& rows);
+
 // Runs the case with `set`, then with each of parts_for() removed or put in. References are taken from the
-// rows, those recorded from `records`. Throws std::runtime_error where the full model does not run or
-// `checks` is empty.
+// rows, those recorded from `records`; `curves` are held against the full model's, with a tolerance relative
+// to its range. Throws std::runtime_error where the full model does not run or there is nothing to look at.
 AblateReport ablate(const std::filesystem::path& case_file, const std::vector<std::string>& set,
                     const std::vector<Part>& parts, const std::vector<Check>& checks,
-                    const std::filesystem::path& records, Runner& runner);
+                    const std::filesystem::path& records, Runner& runner,
+                    const std::vector<Quantity>& curves = {}, double curve_tolerance = 0.0);
 
 std::string ablate_text(const AblateReport& report);
 // Columns: part,metric,value,change,unit,tolerance,beyond,core_seconds,core_s_per_s,work_units_per_s,failure.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -20,27 +21,36 @@ std::string error_text(const Trial& trial) {
   return trial.error ? fmt::format("{:.2g} %", 100.0 * *trial.error) : "-";
 }
 
-std::vector<std::string> summary(const AdviseReport& report) {
-  const Target& target = report.target;
-  std::vector<std::string> lines{
-      fmt::format("{}: {} to {:g} %", report.scene, report.input.quantity.label(),
-                  100.0 * report.input.tolerance),
-      fmt::format("reference: {}, {}; its own uncertainty {:.2g} %{}", target.kind, target.source,
-                  100.0 * target.floor, target.note.empty() ? "" : "; " + target.note)};
-  if (target.floor > report.input.tolerance)
-    lines.emplace_back("WARNING: the reference is more uncertain than the tolerance");
-  if (!report.advice.chosen) {
-    lines.emplace_back("no configuration meets it and is confirmed by a finer run");
-    return lines;
+// What kind of error the figure is: what a reader must know before the figure.
+std::string meaning_of(const Target& target) {
+  if (target.kind == kind_of_own)
+    return "what the figure is: GRID ERROR ONLY, against our own finest grid; the scene has no record, and "
+           "whether the "
+           "model is right this does not tell";
+  if (target.kind == "DEM")
+    return "what the figure is: error of model and grid together, against DEM-VOF of this scene";
+  return fmt::format("what the figure is: error of model and grid together, against {}",
+                     target.kind == "theory" ? "theory" : "a published series");
+}
+
+std::vector<std::string> other_models(const AdviseReport& report) {
+  if (report.others.empty()) return {};
+  std::string line =
+      fmt::format("presets: {} on {:.4g} mm; beside it", report.model, 1e3 * report.others_cell);
+  double farthest = 0.0;
+  for (const OtherModel& other : report.others) {
+    farthest = std::max(farthest, other.distance.value_or(0.0));
+    line += fmt::format("{} {} {}", &other == &report.others.front() ? "" : ",", other.method,
+                        other.distance          ? fmt::format("{:.2g} % off", 100.0 * *other.distance)
+                        : other.failure.empty() ? "not comparable"
+                                                : other.failure);
   }
-  const Step& chosen = *report.advice.chosen;
-  lines.push_back(fmt::format("cheapest: {}; error {}, {:.3g} core-s per simulated s",
-                              name_of(chosen.configuration), error_text(chosen.trial), chosen.trial.cost));
-  if (target.cost)
-    lines.push_back(fmt::format("DEM-VOF costs {:.0f} times that", *target.cost / chosen.trial.cost));
-  const Step& finer = *report.advice.confirmation;
-  lines.push_back(fmt::format("confirmed by {}: error {}, {:.2g} % from it", name_of(finer.configuration),
-                              error_text(finer.trial), 100.0 * *report.advice.moved));
+  std::vector<std::string> lines{line};
+  if (farthest > report.input.tolerance)
+    lines.push_back(
+        fmt::format("WARNING: the choice of the preset moves it by {:.2g} %, more than the tolerance, which "
+                    "holds for the grid alone",
+                    100.0 * farthest));
   return lines;
 }
 
@@ -68,10 +78,42 @@ std::string toml_line(const std::string& key, const std::string& value) {
 
 }  // namespace
 
+std::vector<std::string> advise_summary(const AdviseReport& report) {
+  const Target& target = report.target;
+  const bool grid_only = target.kind == kind_of_own;
+  std::vector<std::string> lines{fmt::format("{}: {} to {:g} %", report.scene, report.input.quantity.label(),
+                                             100.0 * report.input.tolerance),
+                                 meaning_of(target)};
+  if (grid_only)
+    for (const std::string& line : likeness_text(report.numbers, report.input.like)) lines.push_back(line);
+  for (const std::string& line : other_models(report)) lines.push_back(line);
+  lines.push_back(fmt::format("reference: {}, {}; its own uncertainty {:.2g} %{}", target.kind, target.source,
+                              100.0 * target.floor, target.note.empty() ? "" : "; " + target.note));
+  if (!report.refusal.empty()) {
+    lines.push_back(report.refusal);
+    return lines;
+  }
+  if (!report.advice.chosen) {
+    lines.emplace_back("no configuration meets it and is confirmed by a finer run");
+    return lines;
+  }
+  const Step& chosen = *report.advice.chosen;
+  const char* error = grid_only ? "grid error" : "error";
+  lines.push_back(fmt::format("cheapest: {}; {} {}, {:.3g} core-s per simulated s",
+                              name_of(chosen.configuration), error, error_text(chosen.trial),
+                              chosen.trial.cost));
+  if (target.cost)
+    lines.push_back(fmt::format("DEM-VOF costs {:.0f} times that", *target.cost / chosen.trial.cost));
+  const Step& finer = *report.advice.confirmation;
+  lines.push_back(fmt::format("confirmed by {}: {} {}, {:.2g} % from it", name_of(finer.configuration), error,
+                              error_text(finer.trial), 100.0 * *report.advice.moved));
+  return lines;
+}
+
 std::string advise_text(const AdviseReport& report) {
   std::string text;
-  for (const std::string& line : summary(report)) text += line + "\n";
-  text += "evidence:\n";
+  for (const std::string& line : advise_summary(report)) text += line + "\n";
+  if (!report.advice.steps.empty()) text += "evidence:\n";
   for (const Step& step : report.advice.steps)
     text += fmt::format("  {:<60} {:>8} {:>9.3g} core-s/s  {}\n", name_of(step.configuration),
                         error_text(step.trial), step.trial.cost, step.remark);
@@ -86,7 +128,8 @@ std::string advise_json(const AdviseReport& report) {
       {"reference",
        {{"kind", report.target.kind}, {"source", report.target.source}, {"floor", report.target.floor}}},
       {"version", report.version},
-      {"summary", summary(report)},
+      {"summary", advise_summary(report)},
+      {"refusal", report.refusal},
       {"set", report.set},
       {"steps", Json::array()}};
   for (const Step& step : report.advice.steps)
@@ -103,7 +146,7 @@ std::string advised_case(const AdviseReport& report, const std::filesystem::path
       "{}: {} as cheap as {} to {:g} % allows; by granvof-compare advise, {}.", name, report.scene,
       report.input.quantity.label(), 100.0 * report.input.tolerance, report.version));
   text += "#\n";
-  for (const std::string& line : summary(report)) text += comment(line);
+  for (const std::string& line : advise_summary(report)) text += comment(line);
   text += "#\n# Evidence (error, core-s per simulated s):\n";
   for (const Step& step : report.advice.steps)
     text += comment(fmt::format("{}: {}, {:.3g}; {}", name_of(step.configuration), error_text(step.trial),

@@ -1,5 +1,6 @@
 #include "compare/study/advise_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,6 +13,16 @@
 namespace granvof::compare {
 namespace {
 
+std::vector<std::string> overrides_for(const AdviseInput& input, const Scene& scene,
+                                       const Configuration& configuration) {
+  std::vector<std::string> set = input.set;
+  set.push_back(fmt::format("grid.dx={:.12g}", configuration.cell));
+  set.insert(set.end(), configuration.method.set.begin(), configuration.method.set.end());
+  for (const Part& part : configuration.without)
+    for (const std::string& assignment : overrides_of(part, scene)) set.push_back(assignment);
+  return set;
+}
+
 class SceneBench : public Bench {
  public:
   SceneBench(const AdviseInput& input, const Method& reference, const Scene& scene, Runner& runner)
@@ -20,12 +31,7 @@ class SceneBench : public Bench {
   void aim_at(const Target& target) { target_ = &target; }
 
   std::vector<std::string> set_of(const Configuration& configuration) {
-    std::vector<std::string> set = input_.set;
-    set.push_back(fmt::format("grid.dx={:.12g}", configuration.cell));
-    set.insert(set.end(), configuration.method.set.begin(), configuration.method.set.end());
-    for (const Part& part : configuration.without)
-      for (const std::string& assignment : overrides_of(part, scene_)) set.push_back(assignment);
-    return set;
+    return overrides_for(input_, scene_, configuration);
   }
 
   Outcome outcome(const Configuration& configuration) {
@@ -101,11 +107,64 @@ std::optional<Target> known_target(const AdviseInput& input, const Run& run) {
   return std::nullopt;
 }
 
+// The method whose finest run is the reference of the paper's model: the panels', else the first.
 const Method& reference_method(const AdviseInput& input, const std::vector<Method>& methods) {
   for (const Panel& panel : input.panels)
     for (const Method& method : methods)
       if (panel.against == Against::finest && panel.method == method.name) return method;
+  for (const Method& method : methods)
+    if (!method.other_model) return method;
   return methods.front();
+}
+
+bool makes_preset(const Method& method, const std::string& preset) {
+  return method.set == std::vector<std::string>{"model.preset=" + preset};
+}
+
+// The method that stands for the model to advise on where only our own finest grid is a reference.
+const Method& model_to_advise_on(const AdviseInput& input, const std::vector<Method>& methods,
+                                 const Scene& scene) {
+  std::string preset = preset_of(scene);
+  if (!input.like.empty() && input.like.front().farthest <= near_factor) {
+    const auto& errors = input.like.front().errors;
+    preset = std::min_element(errors.begin(), errors.end(), [](const ModelError& a, const ModelError& b) {
+               return a.highest < b.highest;
+             })->preset;
+  }
+  for (const Method& method : methods)
+    if (method.other_model && makes_preset(method, preset)) return method;
+  return reference_method(input, methods);
+}
+
+std::vector<Method> methods_of_model(const std::vector<Method>& methods, const Method& model) {
+  if (model.other_model) return {model};
+  std::vector<Method> same = methods;
+  std::erase_if(same, [](const Method& method) { return method.other_model; });
+  return same;
+}
+
+// Each other model's result beside the chosen one's, on the next to finest cells.
+void try_other_models(const std::vector<Method>& methods, const Method& model, const Method& paper,
+                      SceneBench& bench, AdviseReport& report) {
+  const double cell = report.input.cells[report.input.cells.size() - 2];
+  report.others_cell = cell;
+  std::vector<Method> others;
+  if (model.other_model && !paper.other_model) others.push_back(paper);
+  for (const Method& method : methods)
+    if (method.other_model && method.name != model.name) others.push_back(method);
+  for (const Method& method : others) {
+    const Outcome made = bench.outcome({cell, method, {}});
+    OtherModel other{method.name, bench.distance({cell, method, {}}, {cell, model, {}}), made.failure};
+    report.others.push_back(std::move(other));
+  }
+}
+
+// Parts that a walk may leave out: what a choice beside the paper's model is worth is tried by methods that
+// make it.
+std::vector<Part> removable(const std::vector<Part>& parts) {
+  std::vector<Part> kept = parts;
+  std::erase_if(kept, [](const Part& part) { return part.form == Form::each_choice; });
+  return kept;
 }
 
 Target choose_target(const AdviseInput& input, const Method& method, const Scene& scene, SceneBench& bench) {
@@ -134,20 +193,65 @@ Target choose_target(const AdviseInput& input, const Method& method, const Scene
 
 }  // namespace
 
+std::vector<double> cells_to_advise(const std::vector<double>& grids, const Scene& scene) {
+  const double own = scene.grid.spacing[0];
+  const double grain = scene.bed ? scene.solid.diameter : 0.0;
+  std::vector<double> cells;
+  for (const double cell :
+       grids.empty() ? std::vector{4.0 * own, 2.0 * own, own, 0.5 * own, 0.25 * own} : grids)
+    if (cell >= grain * (1.0 - 1e-9)) cells.push_back(cell);
+  if (cells.empty()) cells.push_back(own * std::exp2(std::ceil(std::log2(grain / own) - 1e-9)));
+  if (cells.size() == 1) cells.insert(cells.begin(), 2.0 * cells.front());
+  return cells;
+}
+
+std::vector<std::vector<Job>> jobs_of(const AdviseInput& input, const std::vector<Method>& methods,
+                                      const std::vector<Part>& parts) {
+  const Scene scene = load_scene(input.case_file, input.set);
+  std::vector<std::vector<Job>> jobs(input.cells.size());
+  const auto add = [&](std::size_t grid, const Configuration& configuration) {
+    try {
+      jobs[grid].push_back({input.case_file, overrides_for(input, scene, configuration)});
+    } catch (const std::invalid_argument&) {  // the part does not apply
+    }
+  };
+  const std::size_t last = input.cells.size() - 1, of_parts = last > 1 ? last - 2 : 0;
+  for (std::size_t i = 0; i < last; ++i)
+    for (const Method& method : methods)
+      if (i < method.grids.value_or(i + 1)) add(i, {input.cells[i], method, {}});
+  for (const Part& part : removable(parts)) add(of_parts, {input.cells[of_parts], methods.front(), {part}});
+  add(last, {input.cells[last], methods.front(), {}});
+  return jobs;
+}
+
 AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& methods,
                           const std::vector<Part>& parts, Runner& runner) {
   const Scene scene = load_scene(input.case_file, input.set);
-  const Method& reference = reference_method(input, methods);
-  SceneBench bench(input, reference, scene, runner);
-  AdviseReport report{scene.name, "", input, choose_target(input, reference, scene, bench), {}, {}};
+  const Method& paper = reference_method(input, methods);
+  const Method& model = model_to_advise_on(input, methods, scene);
+  SceneBench bench(input, model, scene, runner);
+  AdviseReport report{scene.name, "", input, choose_target(input, model, scene, bench), {}, {}, ""};
+  report.numbers = numbers_of(scene);
   bench.aim_at(report.target);
+  if (report.target.floor > largest_floor * input.tolerance) {
+    report.refusal = fmt::format(
+        "cannot be told: the reference is itself uncertain by {:.2g} %, {:.2g} of the tolerance (at most "
+        "{:g}); {}",
+        100.0 * report.target.floor, report.target.floor / input.tolerance, largest_floor,
+        report.target.kind == kind_of_own
+            ? fmt::format("a finer last grid (--cells), or a tolerance of {:.2g} % or more",
+                          100.0 * report.target.floor / largest_floor)
+            : fmt::format("a tolerance of {:.2g} % or more can be",
+                          100.0 * report.target.floor / largest_floor));
+    return report;
+  }
   std::vector<Method> tried = methods;
-  if (report.target.kind == kind_of_own)
-    std::erase_if(tried, [](const Method& method) { return method.other_model; });
-  // What a choice beside the paper's model is worth is tried by methods that make it.
-  std::vector<Part> removable = parts;
-  std::erase_if(removable, [](const Part& part) { return part.form == Form::each_choice; });
-  report.advice = advise(input.cells, tried, removable, input.tolerance, bench);
+  if (report.target.kind == kind_of_own) {
+    report.model = model.name;
+    tried = methods_of_model(methods, model);
+    try_other_models(methods, model, paper, bench, report);
+  }
+  report.advice = advise(input.cells, tried, removable(parts), input.tolerance, bench);
   if (!report.advice.chosen) return report;
   report.set = bench.set_of(report.advice.chosen->configuration);
   const Outcome chosen = bench.outcome(report.advice.chosen->configuration);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/study/advise.hpp"
+#include "compare/study/like_scene.hpp"
 #include "compare/study/runner.hpp"
 #include "compare/study/target.hpp"
 
@@ -21,6 +22,17 @@ struct AdviseInput {
   std::vector<Check> checks;  // rows of this scene, for the theory of a metric
   std::vector<Panel> panels;  // of the chart of this scene, for a published series and the reference method
   std::optional<Against> against = std::nullopt;  // the reference; nothing: the first that there is
+  std::vector<LikeScene> like{};                  // recorded scenes, the nearest first
+};
+
+// A reference whose own uncertainty is more than this share of the tolerance cannot tell whether it is met.
+inline constexpr double largest_floor = 0.5;
+
+// Another preset's result beside that of the model that was advised on, on the same cells.
+struct OtherModel {
+  std::string method;
+  std::optional<double> distance;  // relative [-]
+  std::string failure;
 };
 
 struct AdviseReport {
@@ -29,15 +41,32 @@ struct AdviseReport {
   Target target;
   Advice advice;
   std::vector<std::string> set;  // of the chosen configuration, all overrides
+  std::string refusal;           // why nothing can be told; empty: it can
+  SceneNumbers numbers{};
+  std::string model{};               // against our own finest grid: the method that stands for it
+  std::vector<OtherModel> others{};  // likewise
+  double others_cell = 0.0;          // where they were tried [m]
 };
 
+// Cell sizes to walk by default: of `grids` (of the scene's chart), else of four, two, one, a half and a
+// quarter times the case's own, those not below a grain [m], large to small; at least two.
+std::vector<double> cells_to_advise(const std::vector<double>& grids, const Scene& scene);
+
+// All that a walk may run, one list a size of cells: what advise_scene() runs at most.
+std::vector<std::vector<Job>> jobs_of(const AdviseInput& input, const std::vector<Method>& methods,
+                                      const std::vector<Part>& parts);
+
 // The reference is the DEM records of the scene where there are some, else theory or a published series, else
-// our own finest grid (of the first method, unless the panels name another; it is no reference for a method
-// of other equations, which is then not tried); or the one that the input names. Throws std::runtime_error
-// where there is none.
+// our own finest grid; or the one that the input names. Our own finest grid is of one model, and only methods
+// of that model are tried: of the preset that was off by least in the nearest recorded scene, where one is
+// near, else of the scene's own; the other presets are then run once, and what they differ by is stated. A
+// reference with an uncertainty above `largest_floor` of the tolerance is refused before the walk. Throws
+// std::runtime_error where there is no reference.
 AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& methods,
                           const std::vector<Part>& parts, Runner& runner);
 
+// What the figure is and what it is worth, then the answer.
+std::vector<std::string> advise_summary(const AdviseReport& report);
 std::string advise_text(const AdviseReport& report);
 std::string advise_json(const AdviseReport& report);
 

@@ -23,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* note_file = "study.json";  // beside run.json: what the run was made for, and its costs
-constexpr int timings = 3;
 constexpr double noise_of_one =
     0.1;  // of a cost that was timed once: what the same run differs by on a busy machine
 constexpr const char* stopped_from_outside = "stopped by a signal";  // last words of granvof then
@@ -157,7 +156,7 @@ Outcome CachedRunner::make(const Job& job, const Scene& scene, const fs::path& d
     std::optional<double> spent;
     if (fs::exists(directory / "run.json")) spent = read_facts(directory / "run.json").number("core_seconds");
     costs.push_back(spent.value_or(0.0));
-  } while (failure.empty() && static_cast<int>(costs.size()) < timings &&
+  } while (failure.empty() && static_cast<int>(costs.size()) < timings_of_a_cheap_run &&
            costs.back() < options_.repeat_below);
   double sum = 0.0;
   for (const double unit : units) sum += unit;

@@ -45,6 +45,9 @@ class Runner {
   virtual bool has(const Job& job) = 0;
 };
 
+// A run cheaper than RunnerOptions::repeat_below is timed so often: a cost of a second is mostly noise.
+inline constexpr int timings_of_a_cheap_run = 3;
+
 struct RunnerOptions {
   std::filesystem::path program;  // granvof
   std::filesystem::path cache;    // run directories, one a job, below CACHE/SCENE/

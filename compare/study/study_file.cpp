@@ -23,7 +23,7 @@ Named read_named(const TomlEntry& entry) {
 }
 
 Method read_method(const TomlEntry& entry) {
-  entry.allow_only({"name", "set", "about", "grids", "other_model"});
+  entry.allow_only({"name", "set", "about", "grids", "other_model", "advise"});
   auto method = read_named<Method>(entry);
   if (entry.has("grids")) {
     const double grids = entry.positive("grids");
@@ -31,6 +31,7 @@ Method read_method(const TomlEntry& entry) {
     method.grids = static_cast<std::size_t>(grids);
   }
   if (entry.has("other_model")) method.other_model = entry.truth("other_model");
+  if (entry.has("advise")) method.advise = entry.truth("advise");
   return method;
 }
 
@@ -181,6 +182,18 @@ std::vector<Method> methods_of(const Study& study, const Chart* chart) {
     if (std::find(chart->methods.begin(), chart->methods.end(), method.name) != chart->methods.end())
       shown.push_back(method);
   return shown;
+}
+
+std::vector<Method> methods_to_advise(const Study& study, const Chart* chart) {
+  std::vector<Method> tried = methods_of(study, chart);
+  std::erase_if(tried, [&](const Method& method) {
+    const bool of_a_scene =
+        std::any_of(method.set.begin(), method.set.end(), [](const std::string& assignment) {
+          return !assignment.starts_with("model.") && !assignment.starts_with("numerics.");
+        });
+    return !method.advise || (!chart && of_a_scene);
+  });
+  return tried;
 }
 
 Study parse_study(std::string_view text, std::string_view name) {

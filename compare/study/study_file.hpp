@@ -19,6 +19,8 @@ struct Method {
   std::optional<std::size_t> grids = std::nullopt;
   // It solves other equations than the first method: our own finest grid is no reference for it.
   bool other_model = false;
+  // Whether `advise` tries it: not what costs many times the others.
+  bool advise = true;
 };
 
 // Another program's runs, or the reference's at another resolution, as points of the charts.
@@ -69,6 +71,9 @@ struct Study {
 
 // Those of `chart`, in the study's order; all without one.
 std::vector<Method> methods_of(const Study& study, const Chart* chart);
+// The same for `advise`: without those it does not try, and without a chart only those that leave the scene's
+// own tank, grains and bed as they are.
+std::vector<Method> methods_to_advise(const Study& study, const Chart* chart);
 
 std::string_view name_of(Form form);
 std::string_view name_of(Against against);

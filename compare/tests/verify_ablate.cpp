@@ -97,6 +97,20 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   for (const char* word : {"run_out@2", "no friction", "changes run_out@2", "no metric beyond its tolerance"})
     EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
 
+  // Any metric or curve of any scene, without a row of its own.
+  const Quantity curve = parse_quantity("run_out", std::nullopt);
+  const Quantity at = parse_quantity("deposit_height@2", std::nullopt);
+  const AblateReport asked =
+      ablate(file, set, {parts[0], parts[1]}, {check_of(at, 0.05, {})}, records, runner, {curve}, 0.05);
+  ASSERT_EQ(asked.metrics.size(), 2u);
+  EXPECT_DOUBLE_EQ(asked.rows[1].effects[0].tolerance, 0.05 * *asked.metrics[0].full);
+  EXPECT_GT(*asked.rows[1].effects[1].change, 0.05);
+  EXPECT_TRUE(asked.rows[1].effects[1].beyond);
+  EXPECT_EQ(*asked.rows[2].effects[1].change, 0.0);
+  EXPECT_FALSE(asked.rows[2].effects[1].beyond);
+  EXPECT_NE(ablate_text(asked).find("run_out (curve)"), std::string::npos);
+  EXPECT_THROW(ablate(file, set, parts, {}, records, runner), std::runtime_error);
+
   CachedRunner again(options);
   EXPECT_TRUE(again.run({file, set}).kept);
 }

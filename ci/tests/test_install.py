@@ -1,0 +1,37 @@
+"""`make install`: what is installed works without the sources."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    build = ROOT / "build/release"
+    assert (build / "compare/granvof-compare").exists(), "`make build` builds the programs"
+    into = tmp_path_factory.mktemp("installed")
+    subprocess.run(["cmake", "--install", build, "--prefix", "/usr"], check=True, env=os.environ | {"DESTDIR": str(into)}, stdout=subprocess.DEVNULL)
+    return into / "usr"
+
+
+def test_the_programs_run_from_where_they_are(installed, tmp_path):
+    case = installed / "share/granvof/cases/s1.toml"
+    checked = subprocess.run([installed / "bin/granvof", "check", case], cwd=tmp_path, capture_output=True, text=True)
+    assert checked.returncode == 0 and checked.stdout.startswith("# s1:"), checked.stderr
+    plan = subprocess.run([installed / "bin/granvof-compare", "plan"], cwd=installed / "share/granvof", capture_output=True, text=True)
+    assert plan.returncode == 0 and "s1\ts1" in plan.stdout, plan.stderr
+
+
+def test_each_program_has_its_page_and_its_completion(installed):
+    for program, word in (("granvof", "--picture"), ("granvof-compare", "--budget")):
+        assert word in (installed / f"share/man/man1/{program}.1").read_text().replace("\\-", "-")
+        assert word in (installed / f"share/bash-completion/completions/{program}").read_text()
+
+
+def test_the_module_is_found(installed):
+    subprocess.run(["/usr/bin/python3", "-c", "import granvof; granvof.load"], check=True,
+                   env=os.environ | {"PYTHONPATH": str(installed / "lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"})
