@@ -48,7 +48,10 @@ struct Closed {
       s.boundary.exchange(flux_s[d]);
     }
     after = before;
-    if (!by_tree) return close_continuity(s.grid, s.boundary, aperture, flux_s, after);
+    if (!by_tree) {
+      close_continuity(s.grid, s.boundary, aperture, flux_s, after);
+      return;
+    }
     ContinuityTree tree(s.grid);
     tree.grow(aperture);
     tree.close(s.boundary, flux_s, after);
