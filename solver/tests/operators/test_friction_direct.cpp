@@ -58,7 +58,7 @@ TEST(FrictionDirect, FactorisesThinBedsOnly) {
       });
     const Field viscosity(grid, 1.0);
     FrictionDirect direct(grid);
-    return direct.factorise(box_of_grains(grid, raft.inertia), {viscosity.data(),
+    return direct.factorise(box_of_grains(grid, raft.inertia), {{viscosity.data(), viscosity.data()},
                                                                 viscosity.data(),
                                                                 viscosity.data(),
                                                                 nullptr,
