@@ -28,7 +28,7 @@ constexpr double few_refused = 20.0;
 constexpr double energy_that_stops = 10.0;  // in motion, of all that the run was given
 // Below these shares nothing counts as turned over.
 constexpr double least_share_of_store = 1e-6;
-constexpr double least_share_of_bed = 1e-3;
+constexpr double least_share_of_bed = 1e-2;
 
 // Without gravity a tank at rest stores nothing to take shares of: then of the scene's own energy.
 double least_energy(const Scene& scene, const EnergyTerms& start) {
