@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "compare/study/runner.hpp"
+#include "solver/output/seal.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -49,10 +50,11 @@ class StudyRunner : public testing::Test {
 };
 
 // What a run that ended early leaves behind.
-constexpr const char* half_a_run =
-    "mkdir -p $out; echo '{\"exit\": {\"state\": \"failed\", \"reason\": \"step collapse\"}, "
-    "\"core_seconds\": 3.5, "
-    "\"simulated_time\": 0.5}' > $out/run.json\n";
+const std::string half_a_run = "mkdir -p $out; cat > $out/run.json <<'END'\n" +
+                               sealed(
+                                   "{\n  \"exit\": {\"state\": \"failed\", \"reason\": \"step collapse\"},\n"
+                                   "  \"core_seconds\": 3.5,\n  \"simulated_time\": 0.5\n}") +
+                               "END\n";
 
 TEST_F(StudyRunner, AFailedRunSaysWhyAndWhatItCost) {
   CachedRunner made = runner(half_a_run + "echo first >&2; echo 'step collapse at t = 0.5 s' >&2; exit 1"s);

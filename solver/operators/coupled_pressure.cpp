@@ -225,7 +225,7 @@ double CoupledPressure::turned_flux(double dt, const Field& f_s) {
 void CoupledPressure::extrapolate_points(double dt, const Field& f_s, const FaceField& u_s_old) {
   point_f_ = f_s;
   for (int d = 0; d < grid_.dim; ++d) {
-    const Range faces = grid_.fluid_faces(d);
+    const Range faces = grid_.flux_faces(d);
     fraction_.face_values(grid_, f_s, u_s_old[d], d, dt, faces, f_upwind_s_[d]);
     const double *phi = f_upwind_s_[d].data(), *u = u_s_old[d].data();
     double* flux = us_[d].data();
@@ -319,7 +319,11 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
   const Numerics& numerics = scene_.numerics;
   const bool implicit = numerics.contact_pressure == ContactPressure::implicit;
   PressureReport report;
-  extrapolate_points(dt, f_s, u_s_old);
+  if (implicit) {
+    extrapolate_points(dt, f_s, u_s_old);
+  } else {
+    point_f_ = f_s;  // P_s is that of the old solid fraction
+  }
   us_ = u_s;
   uc_ = u_c;
   dp_c_.fill(0.0);

@@ -75,7 +75,7 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
        "momentum or continuity is not solved well enough: the energy budget does not close");
   look("energy created", (e.dilatancy - std::min(e.numerical(), 0.0)) / turnover, largest_energy_created,
        "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
-  look("elastic start", start_.elastic / (energy_of_bed(scene_) + least_energy(scene_, start_)),
+  look("elastic start", start_.elastic / std::max(energy_of_bed(scene_), least_energy(scene_, start_)),
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
        "how far depends on contact.stiffness and on the first steps");

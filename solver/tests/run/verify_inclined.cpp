@@ -166,7 +166,7 @@ TEST_P(Sloshing, KeepsVolumeAndEnergy) {
   ASSERT_FALSE(HasFatalFailure());
   EXPECT_GT(moment(), 1.05 * before);
   const EnergyTerms& e = run.now.energy;
-  const double turnover = energy_turnover(start, e);
+  const double turnover = energy_turnover(run.scene, start, e);
   EXPECT_LT(std::fabs(closure(start, e)), 1e-9 * turnover);
   EXPECT_LT(std::fabs(e.residual), 1e-3 * turnover);
   EXPECT_LT(e.potential, start.potential);
