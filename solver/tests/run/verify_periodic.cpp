@@ -203,7 +203,9 @@ void expect_shift_invariant(const Scene& scene, const Scene& moved, int along, d
     furthest = std::fmax(furthest, d.largest);
     set_shifted(given, along, shifted);
   }
-  if (known > agreement) EXPECT_GT(furthest, agreement) << "mended";
+  if (known > agreement) {
+    EXPECT_GT(furthest, agreement) << "mended";
+  }
   std::ostringstream text;
   text << furthest;
   ::testing::Test::RecordProperty(std::string("furthest_along_") + "xyz"[along], text.str());
