@@ -64,7 +64,7 @@ def damaged_runs(bench, entry):
         if ended is None or ended.returncode not in (1, 2):
             why = "no end" if ended is None else f"exit code {ended.returncode}"
         elif b"run" not in ended.stdout + ended.stderr:
-            why = "the run is not named"
+            why = f"the run is not named: {(ended.stdout + ended.stderr)[-200:]!r}"
         yield f"{name}, {how}", why
 
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/scene/printable.hpp"
+
 namespace granvof::compare {
 namespace {
 
@@ -31,7 +33,7 @@ LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene
     if (loaded.facts->grid) loaded.run->scene.grid = *loaded.facts->grid;  // of the record, not of our run
     loaded.state = RunState::usable;
   } catch (const std::exception& error) {
-    loaded.reason = fmt::format("refused: {}", error.what());
+    loaded.reason = fmt::format("refused: {}", case_file::printable(error.what(), longest_reason));
   }
   return loaded;
 }

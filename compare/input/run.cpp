@@ -11,6 +11,7 @@
 #include "solver/output/fields_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/seal.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -200,7 +201,7 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
     loaded.state = RunState::usable;
   } catch (const std::exception& error) {
     loaded.run.reset();
-    loaded.reason = fmt::format("refused: {}", error.what());
+    loaded.reason = fmt::format("refused: {}", case_file::printable(error.what(), longest_reason));
   }
   return loaded;
 }

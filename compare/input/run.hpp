@@ -1,6 +1,7 @@
 // One run directory (series.csv, fields.h5, run.json), read for comparison together with its scene.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -56,6 +57,8 @@ enum class RunState {
 };
 
 std::string_view name_of(RunState state);
+
+inline constexpr std::size_t longest_reason = 1000;  // bytes: it may quote what a damaged file holds
 
 struct LoadedRun {
   RunState state = RunState::missing;

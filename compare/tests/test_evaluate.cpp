@@ -379,6 +379,17 @@ TEST_F(Evaluate, ARunOfAnEarlierVersionIsAnError) {
   EXPECT_NE(evaluation.runs[0].reason.find("made by an earlier version"), std::string::npos);
 }
 
+// What a damaged file holds is quoted, and need not be text: the other verdicts must still be written.
+TEST_F(Evaluate, ABrokenByteInAHeaderLeavesAResultThatCanBeWritten) {
+  write_run("s1", series(0.1));
+  std::string text = series(0.1);
+  text[text.find('[')] = '\xae';
+  write(paths_.runs / "s1" / "series.csv", text);
+  const Evaluation evaluation = evaluate_row(volume_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
+  EXPECT_NO_THROW(results_json(evaluation, Frequency::verify, "2026-01-01T00:00:00Z"));
+}
+
 // Any byte of it, the digest too: what it reports is what the verdict rests on.
 TEST_F(Evaluate, ARunJsonInWhichADigitWasChangedIsAnError) {
   write_run("s1", series(0.1));
