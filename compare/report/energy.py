@@ -44,7 +44,7 @@ def energy_plot(results, run, directory):
         axis.axhline(0, color="0.6", linewidth=0.6)
     left.set_title(run, loc="left", fontsize=9)
     style.stamp(figure, results.facts(run))
-    return [style.save(figure, directory, f"energy-{run}")]
+    return [style.save(figure, directory, f"energy-{run}", pdf=False)]
 
 
 def caption(run):

@@ -74,15 +74,21 @@ def caption(name):
     return CAPTIONS[name]
 
 
+def on_its_own(results):
+    """Runs that are judged by more than that they are the same as another."""
+    return {row["scene"] for row in results.rows if not row["metric"].startswith("series_difference")}
+
+
 def draw_all(results, directory, kept=None):
     """All plots that the results allow, as names in the order of the page; `kept` holds results of earlier studies."""
     names = []
     for plot in PLOTS:
         names += results.shown(lambda: plot(results, directory)) or []
     names += results.shown(lambda: stability.map_plot(stability.load(results.directory, kept), directory)) or []
-    for run in results.curves:
+    pictured = [run for run in results.curves if run in on_its_own(results)]
+    for run in pictured:
         names += results.shown(lambda: energy.energy_plot(results, run, directory)) or []
-    for run in results.curves:
+    for run in pictured:
         names += results.shown(lambda: snapshot_plot(results, run, directory)) or []
         names += results.shown(lambda: plan_plot(results, run, directory)) or []
     return names

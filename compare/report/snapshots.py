@@ -59,7 +59,7 @@ def plan_plot(results, run, directory):
     figure.supylabel("z [mm]", fontsize=9)
     figure.colorbar(drawn, ax=axes[:, 0], label="depth of solid [mm]", location="bottom", shrink=0.8, aspect=30, pad=0.01)
     style.stamp(figure, results.facts(run))
-    return [style.save(figure, directory, f"plan-{run}")]
+    return [style.save(figure, directory, f"plan-{run}", pdf=False)]
 
 
 def recorded_shots(results, case, times, scene):
@@ -95,7 +95,7 @@ def draw(columns, shots, scene, facts, path):
     for axis in axes[:, -1] if tall else axes[-1]:
         axis.set_xlabel("x [mm]")
     style.stamp(figure, facts)
-    style.save(figure, path.parent, path.name)
+    style.save(figure, path.parent, path.name, pdf=False)
 
 
 def label_of_time(time, scene):

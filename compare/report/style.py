@@ -55,12 +55,13 @@ def label_of_version(run):
     return f"{version} ({run['commit']})" if run.get("commit") else version
 
 
-def save(figure, directory, name):
-    """Writes <name>.png and <name>.pdf and gives the name back."""
+def save(figure, directory, name, pdf=True):
+    """Writes <name>.png and, unless it is one of a picture for every run, <name>.pdf; gives the name back."""
     directory.mkdir(parents=True, exist_ok=True)
     figure.savefig(directory / f"{name}.png")
-    figure.set_layout_engine("none")  # the layout is found once; it is the slow part
-    # No creation date: the same results give the same file.
-    figure.savefig(directory / f"{name}.pdf", metadata={"CreationDate": None})
+    if pdf:
+        figure.set_layout_engine("none")  # the layout is found once; it is the slow part
+        # No creation date: the same results give the same file.
+        figure.savefig(directory / f"{name}.pdf", metadata={"CreationDate": None})
     plt.close(figure)
     return name
