@@ -24,9 +24,10 @@ def kills(bench, entry):
 
 
 def at_calls(bench, entry):
-    """The run, and the numbers of its calls at which something happens: every `step`-th."""
+    """The run, and the numbers of its calls at which something happens: every `step`-th, and `beyond` more for the process that
+    joins the fields, whose calls are not counted."""
     run = SmallRun(bench, entry)
-    return run, bench.some(range(1, bench.calls_of(run) + 1, entry.get("step", 1)), entry["sample"])
+    return run, bench.some(range(1, bench.calls_of(run) + entry.get("beyond", 0) + 1, entry.get("step", 1)), entry["sample"])
 
 
 def kills_at_calls(bench, entry):

@@ -176,15 +176,15 @@ LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, 
   try {
     loaded.state = RunState::refused;
     loaded.facts = read_facts(directory / "run.json");
-    if (!loaded.facts->sealed)
-      throw OutputError("use", directory / "run.json",
-                        "it has no SHA-256 of itself: it was made by an earlier version, or changed");
     if (loaded.facts->exit != "finished") {
       loaded.state = RunState::failed;
       loaded.reason = fmt::format("the run did not finish: {}{}", loaded.facts->exit,
                                   loaded.facts->reason.empty() ? "" : ", " + loaded.facts->reason);
       return loaded;
     }
+    if (!loaded.facts->sealed)
+      throw OutputError("use", directory / "run.json",
+                        "it has no SHA-256 of itself: it was made by an earlier version, or changed");
     const std::string before = without_reference(loaded.facts->resolved_case);
     const std::string now = without_reference(scene.resolved);
     if (before != now) {

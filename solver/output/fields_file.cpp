@@ -14,6 +14,7 @@
 #include "solver/output/fields_instant.hpp"
 #include "solver/output/hdf5_file.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/own_process.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/xdmf.hpp"
 
@@ -244,13 +245,8 @@ bool FieldsFile::join() {
     bring_up_to_date();
     const hdf5::QuietErrors quiet;
     reserve_for_joining(draft);
-    const auto source = hdf5::open_for_reading(path);
-    auto target = hdf5::open_for_writing(draft);
-    write_file_attributes(target);
-    for (std::size_t index = 0; index < instants_.size(); ++index) {
-      copy_group(source, group_name(index), target, group_name(index));
-    }
-    if (!target.close()) throw OutputError("write", draft, hdf5::last_error());
+    if (!succeeds_in_own_process([&] { write_joined(draft); }))
+      throw OutputError("write", draft, "HDF5 has not written it");
     const Descriptor written(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
     if (!written.valid()) throw OutputError("write", draft, "it has gone");
     sync(written, draft);
@@ -263,8 +259,19 @@ bool FieldsFile::join() {
   return true;
 }
 
-// Makes `draft` an empty HDF5 file with room on the disk for all instants: HDF5 1.10 crashes when the disk
-// fills up while it writes, so that a full disk must show before. HDF5 cuts off what it does not use.
+// HDF5 1.10 crashes where a write fails (an error of the disk): only to be called where that ends nothing
+// else.
+void FieldsFile::write_joined(const fs::path& draft) const {
+  const auto source = hdf5::open_for_reading(directory_ / file_name);
+  auto target = hdf5::open_for_writing(draft);
+  write_file_attributes(target);
+  for (std::size_t index = 0; index < instants_.size(); ++index)
+    copy_group(source, group_name(index), target, group_name(index));
+  if (!target.close()) throw OutputError("write", draft, hdf5::last_error());
+}
+
+// Makes `draft` an empty HDF5 file with room on the disk for all instants, so that a full disk shows before
+// anything is written. HDF5 cuts off what it does not use.
 void FieldsFile::reserve_for_joining(const fs::path& draft) const {
   std::uintmax_t bytes = 0;
   for (std::size_t index = 0; index < instants_.size(); ++index) bytes += fs::file_size(piece(index)) + 4096;

@@ -50,6 +50,7 @@ class FieldsFile {
   void write_lists();
   void write_file_attributes(std::int64_t file) const;
   std::string xdmf() const;
+  void write_joined(const std::filesystem::path& draft) const;
   void reserve_for_joining(const std::filesystem::path& draft) const;
 
   struct Instant {

@@ -1,0 +1,13 @@
+// Work that may crash in a library, done by a process of its own.
+#pragma once
+
+#include <functional>
+
+namespace granvof {
+
+// Does `work` in a copy of this process and waits for its end; true where it returned. False where it threw,
+// crashed, or no process could be made. What it changes in memory is lost; descriptors that were open are
+// closed for it. It does not outlive this process.
+bool succeeds_in_own_process(const std::function<void()>& work);
+
+}  // namespace granvof
