@@ -130,7 +130,9 @@ def wait_for(condition, seconds=30.0):
 def test_no_run_outlives_the_verification(tmp_path, number):
     arguments = stand_ins(tmp_path, solver=f"exec tail -f {tmp_path}/calls {tmp_path}/mark")
     (tmp_path / "mark").touch()
-    started = subprocess.Popen([SCRIPT, *arguments, "--without-canary"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # A shell's background job, as a test may be one, ignores SIGINT and hands that on.
+    started = subprocess.Popen([SCRIPT, *arguments, "--without-canary"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     runs = lambda: [pid for pid in running(f"{tmp_path}/mark") if pid != started.pid]  # noqa: E731
     wait_for(lambda: len(runs()) == 2)
     started.send_signal(number)
