@@ -4,7 +4,8 @@
  *   FAULT_CALL=N       the N-th call is killed (SIGKILL), a write after half of its bytes; FAULT_ERRNO=E: it fails with E
  *   FAULT_BYTES=N      a disk with N bytes left: what goes beyond is cut off, then fails with ENOSPC
  *
- * Standard streams are let off. The program has one thread; a process that it makes counts on from where it was made. */
+ * Standard streams are let off. The program has one thread; a process that it makes counts on from where it was made,
+ * its calls fail and are not killed: a kill is the whole program's. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -19,6 +20,7 @@
 
 static long calls = 0;
 static long long bytes_left = -1;
+static pid_t begun_as = 0;
 
 static long number(const char* name) {
   const char* given = getenv(name);
@@ -30,6 +32,7 @@ static void* next(const char* name) {
 }
 
 __attribute__((constructor)) static void begin(void) {
+  begun_as = getpid();
   if (getenv("FAULT_BYTES")) bytes_left = atoll(getenv("FAULT_BYTES"));
 }
 
@@ -44,7 +47,7 @@ __attribute__((destructor)) static void end(void) {
 
 static int is_due(void) {
   ++calls;
-  return calls == number("FAULT_CALL");
+  return calls == number("FAULT_CALL") && (getpid() == begun_as || number("FAULT_ERRNO") != 0);
 }
 
 /* Does not return where the call is to be killed. */
