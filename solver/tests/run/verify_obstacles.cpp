@@ -173,7 +173,7 @@ TEST(Grains, SettleOnAndBesideAStep) {
     });
   }
   EXPECT_LT(fastest, 5e-3);
-  const double turnover = energy_turnover(start, run.now.energy);
+  const double turnover = energy_turnover(run.scene, start, run.now.energy);
   EXPECT_LT(std::fabs(run.now.energy.residual), 1e-3 * turnover);
 }
 
