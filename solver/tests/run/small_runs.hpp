@@ -3,10 +3,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
@@ -52,6 +55,57 @@ field_times = [0, 0.05]
 
 inline Scene column_scene(const std::vector<std::string>& overrides = {}) {
   return parse_scene(column_case, "column.toml", overrides);
+}
+
+// A tank of cells of 5 mm, with water up to `level`, air above and glass beads for whoever sets a bed.
+// `tank`: the lines of [tank]; `tables`: those of the case beside these.
+inline Scene small_tank(const std::string& name, std::string_view tank, double level, std::string_view tables,
+                        const std::vector<std::string>& overrides) {
+  return parse_scene(fmt::format(R"([scene]
+name = "{}"
+[tank]
+{}
+[grid]
+dx = 0.005
+[gas]
+density = 1
+viscosity = 1e-5
+[liquid]
+density = 1000
+viscosity = 1e-3
+level = {}
+[solid]
+density = 2500
+diameter = 0.8e-3
+friction = 0.4
+[time]
+end = 100
+{})",
+                                 name, tank, level, tables),
+                     name, overrides);
+}
+
+inline constexpr std::string_view tight_tolerances = R"([numerics]
+volume_tolerance = 1e-12
+linear_tolerance = 1e-8
+)";
+
+// The same tank another way: its name in a test's, and what is set for it.
+struct Variant {
+  std::string name;
+  std::vector<std::string> overrides;
+};
+inline void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << variant.name;
+}
+inline constexpr auto name_of = [](const auto& instance) { return instance.param.name; };
+
+// What the budget says has left the store, and by how much the store has not changed so: an identity [J].
+inline double all_losses(const EnergyTerms& e) {
+  return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.shear_dilatancy - e.residual;
+}
+inline double unaccounted(const EnergyTerms& start, const EnergyTerms& now) {
+  return now.stored() - start.stored() + all_losses(now);
 }
 
 inline int run_into(const std::filesystem::path& out, const Scene& scene, bool resume = false,

@@ -9,12 +9,9 @@
 namespace granvof {
 namespace {
 
+using test::all_losses;
 using test::column_scene;
 using test::Simulation;
-
-double all_losses(const EnergyTerms& e) {
-  return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.shear_dilatancy - e.residual;
-}
 
 // Energies and work were computed apart from each other: their sum is an identity.
 void expect_closed(const EnergyTerms& start, const EnergyTerms& now, double residual_share) {

@@ -1,6 +1,5 @@
 // Inlets and outlets: what comes in and leaves is accounted, and flows as theory has it.
 #include <cmath>
-#include <ostream>
 
 #include "solver/closures/drag.hpp"
 #include "solver/run/alarms.hpp"
@@ -12,35 +11,18 @@ namespace {
 
 using test::Simulation;
 
-Scene channel(const std::vector<std::string>& overrides) {
-  return parse_scene(R"([scene]
-name = "channel"
-[tank]
-size = [0.12, 0.04]
-[grid]
-dx = 0.005
-[walls]
+constexpr std::string_view tolerances = "[numerics]\nvolume_tolerance = 1e-10\nlinear_tolerance = 1e-8\n";
+
+Scene channel(std::vector<std::string> overrides) {
+  overrides.emplace_back("solid.diameter=2e-3");
+  return test::small_tank("channel", "size = [0.12, 0.04]", 0.04,
+                          std::string(R"([walls]
 all = "slip"
 left = { inflow = 0.1 }
 right = { outflow_pressure = 0 }
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.04
-[solid]
-density = 2500
-diameter = 2e-3
-friction = 0.4
-[numerics]
-volume_tolerance = 1e-10
-linear_tolerance = 1e-8
-[time]
-end = 100
-)",
-                     "channel", overrides);
+)")
+                              .append(tolerances),
+                          overrides);
 }
 
 struct Account {
@@ -53,12 +35,7 @@ struct Account {
       solid_left += run_.last.solid_left;
     });
   }
-  double unaccounted() const {  // of the budget [J]
-    const EnergyTerms& e = run_.now.energy;
-    return e.stored() - start.stored() -
-           (e.walls + e.dilatancy + e.shear_dilatancy - e.outflow - e.physical() - e.numerical() +
-            e.residual);
-  }
+  double unaccounted() const { return test::unaccounted(start, run_.now.energy); }  // of the budget [J]
 
  private:
   Simulation& run_;
@@ -72,32 +49,12 @@ struct Account {
 // Between slip walls what comes in goes through as a plug, along every axis and both ways.
 TEST(Plug, GoesThrough) {
   for (int way = 0; way < 3; ++way) {
-    std::string text = R"([scene]
-name = "plug"
-[tank]
-size = [0.06, 0.06]
-[grid]
-dx = 0.005
-[walls]
-all = "slip"
-)";
-    text += way == 0   ? "left = { inflow = 0.1 }\nright = { outflow_pressure = 0 }\n"
-            : way == 1 ? "right = { inflow = 0.1 }\nleft = { outflow_pressure = 0 }\n"
-                       : "bottom = { inflow = 0.1 }\ntop = { outflow_pressure = 0 }\n";
-    text += R"([gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.06
-[numerics]
-volume_tolerance = 1e-10
-linear_tolerance = 1e-8
-[time]
-end = 10
-)";
-    Simulation run(parse_scene(text, "plug", {}));
+    std::string walls = "[walls]\nall = \"slip\"\n";
+    walls += way == 0   ? "left = { inflow = 0.1 }\nright = { outflow_pressure = 0 }\n"
+             : way == 1 ? "right = { inflow = 0.1 }\nleft = { outflow_pressure = 0 }\n"
+                        : "bottom = { inflow = 0.1 }\ntop = { outflow_pressure = 0 }\n";
+    Simulation run(test::small_tank("plug", "size = [0.06, 0.06]", 0.06, walls.append(tolerances),
+                                    {"solid=false", "time.end=10"}));
     Account account(run);
     account.until(1.0);
     ASSERT_FALSE(HasFatalFailure());
@@ -114,7 +71,9 @@ end = 10
     EXPECT_LT(across, 1e-6) << way;
     EXPECT_LT(account.monitors.liquid_volume_error(), 1e-12) << way;
     EXPECT_NEAR(account.liquid_left, 0.0, 1e-9) << way;
-    EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(run.scene, account.start, run.now.energy)) << way;
+    EXPECT_LT(std::fabs(account.unaccounted()),
+              1e-9 * energy_turnover(run.scene, account.start, run.now.energy))
+        << way;
   }
 }
 
@@ -132,9 +91,11 @@ TEST(Volume, OfWhatComesInIsThere) {
     EXPECT_GT(account.monitors.liquid_volume(run.now), 0.012 * 0.1) << scheme;
     EXPECT_LT(account.liquid_left, 0.0) << scheme;  // more has come in than has left
     EXPECT_GT(account.liquid_left, -given * 1.001) << scheme;
-    EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(run.scene, account.start, run.now.energy))
+    EXPECT_LT(std::fabs(account.unaccounted()),
+              1e-9 * energy_turnover(run.scene, account.start, run.now.energy))
         << scheme;
-    EXPECT_LT(std::fabs(run.now.energy.residual), 0.01 * energy_turnover(run.scene, account.start, run.now.energy))
+    EXPECT_LT(std::fabs(run.now.energy.residual),
+              0.01 * energy_turnover(run.scene, account.start, run.now.energy))
         << scheme;
   }
 }
@@ -188,38 +149,19 @@ TEST(Plates, TurnAPlugIntoAParabola) {
 // f_c^2 per length at the superficial speed u (at low Re the 150 of Ergun), beside the weight of the water.
 TEST(Bed, TakesThePressureOfErgun) {
   for (const char* law : {"paper", "di-felice", "beetstra"}) {
-    const std::string text = std::string(R"([scene]
-name = "ergun"
-[tank]
-size = [0.02, 0.08]
-[grid]
-dx = 0.005
-[walls]
+    Simulation run(
+        test::small_tank("ergun", "size = [0.02, 0.08]", 0.08, R"([walls]
 all = "slip"
 bottom = { inflow = 0.002 }
 top = "open"
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.08
-[solid]
-density = 2500
-diameter = 2e-3
-friction = 0.4
 [bed]
 length = 0.02
 height = 0.05
 solid_fraction = 0.575
 [model]
 preset = "paper"
-drag_law = ")") + law + R"("
-[time]
-end = 10
-)";
-    Simulation run(parse_scene(text, "ergun", {}));
+)",
+                         {std::string("model.drag_law=") + law, "solid.diameter=2e-3", "time.end=10"}));
     Account account(run);
     account.until(2.0);
     ASSERT_FALSE(HasFatalFailure()) << law;
@@ -259,7 +201,8 @@ TEST(Grains, ComeInAndLeave) {
   // As much leaves as comes in: the channel is full of what came.
   EXPECT_NEAR(account.monitors.solid_volume(run.now), 0.1 * 0.06 * 0.04, 0.02 * 0.1 * 0.06 * 0.04);
   EXPECT_NEAR(account.monitors.solid_volume(run.now), -account.solid_left, 1e-10);
-  EXPECT_LT(std::fabs(account.unaccounted()), 1e-9 * energy_turnover(run.scene, account.start, run.now.energy));
+  EXPECT_LT(std::fabs(account.unaccounted()),
+            1e-9 * energy_turnover(run.scene, account.start, run.now.energy));
 }
 
 }  // namespace

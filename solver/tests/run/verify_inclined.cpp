@@ -1,7 +1,6 @@
 // An inclined tank: gravity has a component along its floor.
 #include <cmath>
 #include <numbers>
-#include <ostream>
 
 #include "solver/run/alarms.hpp"
 #include "solver/scene/gravity.hpp"
@@ -10,44 +9,14 @@
 namespace granvof {
 namespace {
 
+using test::name_of;
 using test::Simulation;
+using test::Variant;
 
 Scene tank(const std::vector<std::string>& overrides) {
-  return parse_scene(R"([scene]
-name = "inclined"
-[tank]
-size = [0.08, 0.06]
-inclination = 25
-[grid]
-dx = 0.005
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.06
-[solid]
-density = 2500
-diameter = 0.8e-3
-friction = 0.4
-[numerics]
-volume_tolerance = 1e-12
-linear_tolerance = 1e-8
-[time]
-end = 100
-)",
-                     "inclined", overrides);
+  return test::small_tank("inclined", "size = [0.08, 0.06]\ninclination = 25", 0.06, test::tight_tolerances,
+                          overrides);
 }
-
-struct Case {
-  std::string name;
-  std::vector<std::string> overrides;
-};
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
-}
-const auto name_of = [](const auto& instance) { return instance.param.name; };
 
 // rho (g_x (x - L/2) + g_y (y - H)), zero in the mean over the lid.
 double hydrostatic(const Scene& s, double density, double x, double y) {
@@ -70,7 +39,7 @@ double pressure_error(const Simulation& run, double density) {
   return error / largest;
 }
 
-class OneFluid : public ::testing::TestWithParam<Case> {};
+class OneFluid : public ::testing::TestWithParam<Variant> {};
 
 // It starts in the pressure that theory has and keeps it, and finds it from none at all.
 TEST_P(OneFluid, StandsInHydrostaticPressure) {
@@ -94,13 +63,13 @@ TEST_P(OneFluid, StandsInHydrostaticPressure) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tanks, OneFluid,
-                         ::testing::Values(Case{"closed", {}}, Case{"steep", {"tank.inclination=80"}},
-                                           Case{"down_to_the_left", {"tank.inclination=-25"}},
-                                           Case{"gas_under_an_open_top", {"liquid=false", "walls.top=open"}},
-                                           Case{"in_3d",
-                                                {"scene.dimensions=3", "tank.size=[0.08, 0.06, 0.02]"}}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Tanks, OneFluid,
+    ::testing::Values(Variant{"closed", {}}, Variant{"steep", {"tank.inclination=80"}},
+                      Variant{"down_to_the_left", {"tank.inclination=-25"}},
+                      Variant{"gas_under_an_open_top", {"liquid=false", "walls.top=open"}},
+                      Variant{"in_3d", {"scene.dimensions=3", "tank.size=[0.08, 0.06, 0.02]"}}),
+    name_of);
 
 // Liquid down a plane, the lid a surface without stress: u(y) = rho g sin(theta) / mu (H y - y^2 / 2). The
 // second difference of a parabola is exact; the mirrored ghost of the floor shifts all of it by f h^2 / (8
@@ -143,12 +112,7 @@ TEST(Film, IsDrivenFromOutside) {
   EXPECT_NEAR(spent, given, 0.01 * given);
 }
 
-double closure(const EnergyTerms& start, const EnergyTerms& e) {
-  return e.stored() - start.stored() -
-         (e.walls + e.dilatancy + e.shear_dilatancy - e.outflow - e.physical() - e.numerical() + e.residual);
-}
-
-class Sloshing : public ::testing::TestWithParam<Case> {};
+class Sloshing : public ::testing::TestWithParam<Variant> {};
 
 // A level along the floor is no level: the liquid runs to the lower end, and comes to rest there.
 TEST_P(Sloshing, KeepsVolumeAndEnergy) {
@@ -167,15 +131,15 @@ TEST_P(Sloshing, KeepsVolumeAndEnergy) {
   EXPECT_GT(moment(), 1.05 * before);
   const EnergyTerms& e = run.now.energy;
   const double turnover = energy_turnover(run.scene, start, e);
-  EXPECT_LT(std::fabs(closure(start, e)), 1e-9 * turnover);
+  EXPECT_LT(std::fabs(test::unaccounted(start, e)), 1e-9 * turnover);
   EXPECT_LT(std::fabs(e.residual), 1e-3 * turnover);
   EXPECT_LT(e.potential, start.potential);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Tanks, Sloshing,
-    ::testing::Values(Case{"closed", {"liquid.level=0.03", "tank.inclination=10"}},
-                      Case{"open", {"liquid.level=0.03", "tank.inclination=10", "walls.top=open"}}),
+    ::testing::Values(Variant{"closed", {"liquid.level=0.03", "tank.inclination=10"}},
+                      Variant{"open", {"liquid.level=0.03", "tank.inclination=10", "walls.top=open"}}),
     name_of);
 
 // Grains on a rough floor: they stay on a slope below their friction and run down a steeper one.

@@ -1,6 +1,5 @@
 // Boxes inside the tank: what rests beside them rests, what flows past them sticks to them.
 #include <cmath>
-#include <ostream>
 
 #include "solver/run/alarms.hpp"
 #include "solver/run/monitors.hpp"
@@ -9,49 +8,17 @@
 namespace granvof {
 namespace {
 
+using test::name_of;
 using test::Simulation;
+using test::Variant;
 
 // A step of 2 x 2 cells in the middle of the floor.
 Scene tank(const std::vector<std::string>& overrides) {
-  return parse_scene(R"([scene]
-name = "step"
-[tank]
-size = [0.08, 0.06]
-[grid]
-dx = 0.005
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.04
-[solid]
-density = 2500
-diameter = 0.8e-3
-friction = 0.4
-[[obstacle]]
-x0 = 0.03
-x1 = 0.04
-y0 = 0.0
-y1 = 0.02
-[numerics]
-volume_tolerance = 1e-12
-linear_tolerance = 1e-8
-[time]
-end = 100
-)",
-                     "step", overrides);
+  return test::small_tank(
+      "step", "size = [0.08, 0.06]", 0.04,
+      std::string("[[obstacle]]\nx0 = 0.03\nx1 = 0.04\ny0 = 0.0\ny1 = 0.02\n").append(test::tight_tolerances),
+      overrides);
 }
-
-struct Case {
-  std::string name;
-  std::vector<std::string> overrides;
-};
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
-}
-const auto name_of = [](const auto& instance) { return instance.param.name; };
 
 double largest_inside(const Simulation& run) {
   double most = 0.0;
@@ -69,7 +36,7 @@ double largest_inside(const Simulation& run) {
   return most;
 }
 
-class Rest : public ::testing::TestWithParam<Case> {};
+class Rest : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Rest, APoolStaysAtRest) {
   Simulation run(tank(GetParam().overrides));
@@ -88,16 +55,16 @@ TEST_P(Rest, APoolStaysAtRest) {
 INSTANTIATE_TEST_SUITE_P(
     Tanks, Rest,
     ::testing::Values(
-        Case{"step_under_an_open_top", {"walls.top=open"}}, Case{"step_under_a_lid", {}},
-        Case{"step_in_3d", {"scene.dimensions=3", "tank.size=[0.08, 0.06, 0.03]"}},
-        Case{"block_in_3d",
-             {"scene.dimensions=3", "tank.size=[0.08, 0.06, 0.03]", "obstacle.z0=[0.01]",
-              "obstacle.z1=[0.02]"}},
+        Variant{"step_under_an_open_top", {"walls.top=open"}}, Variant{"step_under_a_lid", {}},
+        Variant{"step_in_3d", {"scene.dimensions=3", "tank.size=[0.08, 0.06, 0.03]"}},
+        Variant{"block_in_3d",
+                {"scene.dimensions=3", "tank.size=[0.08, 0.06, 0.03]", "obstacle.z0=[0.01]",
+                 "obstacle.z1=[0.02]"}},
         // two basins, joined by a slit at the floor; above the water the wall goes on to the lid
-        Case{"slit", {"obstacle.y0=[0.01]", "obstacle.y1=[0.06]"}},
-        Case{"hanging_in_the_water", {"obstacle.y0=[0.02]", "obstacle.y1=[0.03]"}},
-        Case{"on_the_seam",
-             {"walls.left=periodic", "walls.right=periodic", "obstacle.x0=[0.0]", "obstacle.x1=[0.01]"}}),
+        Variant{"slit", {"obstacle.y0=[0.01]", "obstacle.y1=[0.06]"}},
+        Variant{"hanging_in_the_water", {"obstacle.y0=[0.02]", "obstacle.y1=[0.03]"}},
+        Variant{"on_the_seam",
+                {"walls.left=periodic", "walls.right=periodic", "obstacle.x0=[0.0]", "obstacle.x1=[0.01]"}}),
     name_of);
 
 // Two basins that start at different levels meet through a slit at the floor: half the sum of both.

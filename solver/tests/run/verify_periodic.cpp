@@ -9,14 +9,15 @@
 // same reason the tolerances are tight, and friction is regularised at a shear that the bed has.
 #include <cmath>
 #include <numbers>
-#include <ostream>
 
 #include "solver/tests/run/small_runs.hpp"
 
 namespace granvof {
 namespace {
 
+using test::name_of;
 using test::Simulation;
+using test::Variant;
 
 constexpr int steps = 12;
 constexpr double agreement = 1e-10;  // of the largest value of a field
@@ -177,14 +178,6 @@ Difference difference(const Simulation& given, const Simulation& shifted, int al
   return worst;
 }
 
-struct Choice {
-  std::string name;
-  std::vector<std::string> overrides;
-};
-void PrintTo(const Choice& choice, std::ostream* out) {
-  *out << choice.name;
-}
-
 // `moved` is the scene with everything that is not part of the state shifted. `known`: up to where it fails
 // as expected, red if it gets worse and if it is mended.
 void expect_shift_invariant(const Scene& scene, const Scene& moved, int along, double known = agreement) {
@@ -257,7 +250,7 @@ TEST(Gate, OnTheSeamIsAGateAnywhere) {
   expect_shift_invariant(scene("0.08"), scene("0.159"), 0);
 }
 
-class Seam : public ::testing::TestWithParam<Choice> {};
+class Seam : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Seam, AShiftAlongXShiftsTheResult) {
   const Scene scene = scene_2d(GetParam().overrides);
@@ -275,29 +268,29 @@ TEST_P(Seam, AShiftAlongXOrZShiftsTheResultIn3D) {
 INSTANTIATE_TEST_SUITE_P(
     Choices, Seam,
     ::testing::Values(
-        Choice{"paper", {}}, Choice{"advised", {"model.preset=advised"}},
-        Choice{"sourced", {"model.preset=sourced"}}, Choice{"open_top", {"walls.top=open"}},
-        Choice{"limited_flux", {"numerics.solid_flux=limited"}},
-        Choice{"compressive_flux", {"numerics.solid_flux=compressive"}},
-        Choice{"part_cells", {"numerics.bed_surface=part-cells"}},
-        Choice{"shear_dilatancy", {"model.shear_dilatancy=true"}},
-        Choice{"inertial_friction", {"model.friction_law=inertial"}},
-        Choice{"thin_layer_arrest", {"model.thin_layer_arrest=true"}},
-        Choice{"agitation_drag", {"model.agitation_drag=true"}},
-        Choice{"frictional_restitution", {"model.frictional_restitution=true"}},
-        Choice{"algebraic_temperature", {"model.granular_temperature=algebraic"}},
-        Choice{"plic", {"numerics.interface_scheme=plic"}},
-        Choice{"upwind_interface", {"numerics.interface_scheme=upwind"}},
-        Choice{"coulomb_floor", {"walls.bottom.solid=coulomb", "walls.bottom.solid_friction=0.2"}},
-        Choice{"slip", {"walls.all=slip", "walls.bottom.fluid=no-slip", "walls.bottom.solid=no-slip"}},
-        Choice{"thick_liquid", {"liquid.viscosity=5"}}, Choice{"light_grains", {"solid.density=500"}},
-        Choice{"explicit_contact", {"numerics.contact_pressure=explicit"}},
-        Choice{
+        Variant{"paper", {}}, Variant{"advised", {"model.preset=advised"}},
+        Variant{"sourced", {"model.preset=sourced"}}, Variant{"open_top", {"walls.top=open"}},
+        Variant{"limited_flux", {"numerics.solid_flux=limited"}},
+        Variant{"compressive_flux", {"numerics.solid_flux=compressive"}},
+        Variant{"part_cells", {"numerics.bed_surface=part-cells"}},
+        Variant{"shear_dilatancy", {"model.shear_dilatancy=true"}},
+        Variant{"inertial_friction", {"model.friction_law=inertial"}},
+        Variant{"thin_layer_arrest", {"model.thin_layer_arrest=true"}},
+        Variant{"agitation_drag", {"model.agitation_drag=true"}},
+        Variant{"frictional_restitution", {"model.frictional_restitution=true"}},
+        Variant{"algebraic_temperature", {"model.granular_temperature=algebraic"}},
+        Variant{"plic", {"numerics.interface_scheme=plic"}},
+        Variant{"upwind_interface", {"numerics.interface_scheme=upwind"}},
+        Variant{"coulomb_floor", {"walls.bottom.solid=coulomb", "walls.bottom.solid_friction=0.2"}},
+        Variant{"slip", {"walls.all=slip", "walls.bottom.fluid=no-slip", "walls.bottom.solid=no-slip"}},
+        Variant{"thick_liquid", {"liquid.viscosity=5"}}, Variant{"light_grains", {"solid.density=500"}},
+        Variant{"explicit_contact", {"numerics.contact_pressure=explicit"}},
+        Variant{
             "everything",
             {"numerics.solid_flux=limited", "numerics.bed_surface=part-cells", "model.friction_law=inertial",
              "model.thin_layer_arrest=true", "model.shear_dilatancy=true", "model.agitation_drag=true",
              "model.frictional_restitution=true", "numerics.interface_scheme=plic"}}),
-    [](const auto& choice) { return choice.param.name; });
+    name_of);
 
 }  // namespace
 }  // namespace granvof

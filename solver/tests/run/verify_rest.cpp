@@ -1,5 +1,4 @@
 // What a tank at rest keeps: its liquid, and the level of its fluid pressure.
-#include <ostream>
 
 #include "solver/run/monitors.hpp"
 #include "solver/tests/run/small_runs.hpp"
@@ -7,49 +6,23 @@
 namespace granvof {
 namespace {
 
+using test::name_of;
 using test::Simulation;
+using test::Variant;
 
 Scene tank(const std::vector<std::string>& overrides) {
-  return parse_scene(R"([scene]
-name = "tank"
-[tank]
-size = [0.04, 0.12]
-[grid]
-dx = 0.005
-[walls]
+  return test::small_tank("tank", "size = [0.04, 0.12]", 0.08, R"([walls]
 all = "slip"
 top = "open"
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.08
-[solid]
-density = 2500
-diameter = 0.8e-3
-friction = 0.4
 [bed]
 length = 0.04
 height = 0.05
 solid_fraction = 0.574
-[time]
-end = 100
 )",
-                     "tank", overrides);
+                          overrides);
 }
 
-struct Case {
-  std::string name;
-  std::vector<std::string> overrides;
-};
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
-}
-const auto name_of = [](const auto& instance) { return instance.param.name; };
-
-class Liquid : public ::testing::TestWithParam<Case> {};
+class Liquid : public ::testing::TestWithParam<Variant> {};
 
 // The water that is there and the water that ran out of the top, against what was there at the start:
 // rounding, with the default tolerances. These 400 steps lost 1e-7 to 2e-5 of it before the fluxes closed
@@ -77,24 +50,23 @@ TEST_P(Liquid, IsKeptToRounding) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Beds, Liquid,
-                         ::testing::Values(Case{"level_inside_the_bed", {"liquid.level=0.03"}},
-                                           Case{"level_inside_a_row", {"liquid.level=0.0312"}},
-                                           Case{"level_at_the_surface", {"liquid.level=0.05"}},
-                                           Case{"level_inside_a_heap",
-                                                {"liquid.level=0.015", "bed.length=0.035", "bed.height=0.03",
-                                                 "bed.slope=45", "walls.bottom=no-slip"}},
-                                           Case{"sealed", {"liquid.level=0.03", "walls.top=slip"}},
-                                           Case{"sealed_and_joined",
-                                                {"liquid.level=0.03", "walls.top=slip", "walls.left=periodic",
-                                                 "walls.right=periodic"}},
-                                           Case{"light_bed", {"liquid.level=0.03", "solid.density=1050"}},
-                                           Case{"floating_bed",
-                                                {"solid.density=400", "liquid.level=0.06", "bed.y=floating"}},
-                                           Case{"sealed_suspension",
-                                                {"liquid.level=0.1", "walls.top=slip", "bed.height=0.09",
-                                                 "bed.solid_fraction=0.2"}}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Beds, Liquid,
+    ::testing::Values(
+        Variant{"level_inside_the_bed", {"liquid.level=0.03"}},
+        Variant{"level_inside_a_row", {"liquid.level=0.0312"}},
+        Variant{"level_at_the_surface", {"liquid.level=0.05"}},
+        Variant{"level_inside_a_heap",
+                {"liquid.level=0.015", "bed.length=0.035", "bed.height=0.03", "bed.slope=45",
+                 "walls.bottom=no-slip"}},
+        Variant{"sealed", {"liquid.level=0.03", "walls.top=slip"}},
+        Variant{"sealed_and_joined",
+                {"liquid.level=0.03", "walls.top=slip", "walls.left=periodic", "walls.right=periodic"}},
+        Variant{"light_bed", {"liquid.level=0.03", "solid.density=1050"}},
+        Variant{"floating_bed", {"solid.density=400", "liquid.level=0.06", "bed.y=floating"}},
+        Variant{"sealed_suspension",
+                {"liquid.level=0.1", "walls.top=slip", "bed.height=0.09", "bed.solid_fraction=0.2"}}),
+    name_of);
 
 // Mean P_c on the lid by the definition of the level, and at the lowest cells [Pa].
 struct Pressure {
@@ -115,7 +87,7 @@ Pressure mean_pressure(const Simulation& run) {
   return {mean.lid / columns, mean.base / columns};
 }
 
-class PressureLevel : public ::testing::TestWithParam<Case> {};
+class PressureLevel : public ::testing::TestWithParam<Variant> {};
 
 // As under an open top, from the first step to the last, while the bed takes its weight. It wandered by tens
 // of Pa. What is left of the pressure that the settling grains put on the water is below 1 Pa after half a
@@ -138,10 +110,10 @@ TEST_P(PressureLevel, StandsInASealedTank) {
 
 INSTANTIATE_TEST_SUITE_P(
     Tanks, PressureLevel,
-    ::testing::Values(Case{"with_gas", {}}, Case{"without_gas", {"liquid.level=0.12"}},
-                      Case{"periodic_sides", {"walls.left=periodic", "walls.right=periodic"}},
-                      Case{"in_3d", {"scene.dimensions=3", "tank.size=[0.04, 0.12, 0.02]"}},
-                      Case{"without_grains", {"bed=false", "solid=false"}}),
+    ::testing::Values(Variant{"with_gas", {}}, Variant{"without_gas", {"liquid.level=0.12"}},
+                      Variant{"periodic_sides", {"walls.left=periodic", "walls.right=periodic"}},
+                      Variant{"in_3d", {"scene.dimensions=3", "tank.size=[0.04, 0.12, 0.02]"}},
+                      Variant{"without_grains", {"bed=false", "solid=false"}}),
     name_of);
 
 // Grains that settle through a sealed tank: the base carries the grains' weight first and the water's alone
