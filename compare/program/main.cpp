@@ -19,6 +19,7 @@
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
+#include "solver/output/standard_streams.hpp"
 #include "solver/scene/load_scene.hpp"
 
 namespace {
@@ -192,9 +193,7 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     const int code = parse_and_run(argc, argv);
-    // What nobody could read is no verdict.
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw std::runtime_error("cannot write to standard output");
+    require_stdout_written();
     return code;
   } catch (const std::exception& error) {
     fmt::print(stderr, "granvof-compare: {}\n", error.what());

@@ -1,6 +1,5 @@
 """Film, plots and a page of any run directory: `compare/show DIR...`. Needs no table of checks and no other run."""
 
-import base64
 import math
 import tomllib
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 
 import granvof
 from report import snapshots, style
+from report.embedded import encoded
 from report.film import film
 from report.results import Results
 from report.style import plt
@@ -75,11 +75,11 @@ def show(directory):
         plots.append((drawn, f"Solid fraction and colour of the grains, {plane}; black line: alpha = 0.5."))
     for drawn in snapshots.plan_plot(results, name, out):
         plots.append((drawn, "From above: depth of the solid, of grains without pores."))
-    figures = [{"data": encoded(out / f"{plot}.png"), "caption": caption} for plot, caption in plots]
+    figures = [{"data": encoded((out / f"{plot}.png").read_bytes()), "caption": caption} for plot, caption in plots]
     moving = film(entry)
     if moving:
         (out / "film.apng").write_bytes(moving)
-        figures.insert(0, {"data": base64.b64encode(moving).decode("ascii"),
+        figures.insert(0, {"data": encoded(moving),
                            "caption": f"Film, {plane}; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, undefined=jinja2.StrictUndefined)
     page = out / "report.html"
@@ -98,7 +98,3 @@ def warnings_of(facts):
 
 def shortened(value):
     return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
-def encoded(path):
-    return base64.b64encode(path.read_bytes()).decode("ascii")

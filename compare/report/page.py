@@ -1,16 +1,17 @@
 """report.html: one file that needs nothing else, from disk, on a phone, in light and dark."""
 
-import base64
 from pathlib import Path
 
 import jinja2
 
 from report import figures, kept_results, overview, style
+from report.embedded import encoded
 from report.film import film
 from report.overview import ORDER
 from report.results import changes
 
 KEPT_MOVED = 5e-3  # by which a kept value must have moved to be another: more than its last figure shown
+
 
 def render(results, plots, sections=(), kept=None):
     """The page as text. `plots` are names in results.directory / "plots"; `sections` those of others (sections.py); `kept` what
@@ -45,7 +46,7 @@ def render(results, plots, sections=(), kept=None):
         damaged=results.damaged,
         sections=sections,
         plots=[{"name": name, "caption": figures.caption(name),
-                "data": encoded(results.directory / "plots" / f"{name}.png")} for name in plots])
+                "data": encoded((results.directory / "plots" / f"{name}.png").read_bytes())} for name in plots])
 
 
 def plot_word(name):
@@ -61,7 +62,7 @@ def films(results):
             continue
         (results.directory / "plots").mkdir(exist_ok=True)
         (results.directory / "plots" / f"film-{run}.apng").write_bytes(moving)
-        made.append({"name": f"film-{run}", "data": base64.b64encode(moving).decode("ascii"),
+        made.append({"name": f"film-{run}", "data": encoded(moving),
                      "caption": f"{run}: film; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
     return made
 
@@ -84,7 +85,3 @@ def number(value, digits=4):
     if value is None:
         return "–"
     return value if isinstance(value, str) else f"{value:.{digits}g}"
-
-
-def encoded(path):
-    return base64.b64encode(path.read_bytes()).decode("ascii")

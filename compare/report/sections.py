@@ -9,11 +9,11 @@ Only "title" is needed. Without "figures" all PNG of the folder are shown, named
 made at another commit than the runs of the page says so by its own commit and date.
 """
 
-import base64
 import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from report.embedded import encoded
 from report.results import Damaged
 
 NAMES = ("charts", "stability", "energy", "faults")  # in the order of the page
@@ -54,7 +54,7 @@ def read(directory):
 def figure(directory, entry):
     path = directory / Path(entry["file"]).name
     return {"name": f"{directory.name}-{path.stem}", "caption": entry["caption"],
-            "data": base64.b64encode(path.read_bytes()).decode("ascii")}
+            "data": encoded(path.read_bytes())}
 
 
 def listed(text):

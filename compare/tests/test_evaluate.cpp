@@ -10,85 +10,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "compare/checks/evaluate.hpp"
-#include "compare/checks/table.hpp"
 #include "compare/input/records.hpp"
 #include "compare/output/write.hpp"
-#include "compare/tests/files_stated.hpp"
+#include "compare/tests/evaluated_rows.hpp"
 #include "solver/output/atomic_file.hpp"
-#include "solver/output/seal.hpp"
-#include "solver/scene/load_scene.hpp"
-#include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
 namespace {
-
-namespace fs = std::filesystem;
-
-class Evaluate : public testing::Test {
- protected:
-  static void write(const fs::path& file, const std::string& text) {
-    fs::create_directories(file.parent_path());
-    std::ofstream(file) << text;
-  }
-
-  // A front that runs from 0.1 m at `speed`, to T = 10 of s1, as often as asked; a last row may be added.
-  std::string series(double speed, const std::string& last_row = "") const {
-    std::string text = "time [s],front_dense [m],front_dilute [m],solid_volume [m3]\n";
-    for (const double t : scene_.times.row_times) {
-      const double x = 0.1 + speed * t;
-      text += fmt::format("{},{},{},0.002\n", t, x, x);
-    }
-    return text + last_row;
-  }
-
-  void write_run(const std::string& id, const std::string& series_text, const std::string& exit = "finished",
-                 const std::string& resolved_tail = "") {
-    const nlohmann::json json{
-        {"scene", "s1"},
-        {"version", "0.1.0"},
-        {"case_hash", scene_.hash},
-        {"resolved_case", scene_.resolved + resolved_tail},
-        {"solid_volume_error", 1e-15},
-        {"core_seconds", 2.5},
-        {"files", test::files_stated(series_text)},
-        {"exit", {{"state", exit}, {"reason", exit == "finished" ? "" : "step collapse"}}}};
-    write(paths_.runs / id / "run.json", sealed(json.dump(2)));
-    write(paths_.runs / id / "series.csv", series_text);
-  }
-
-  void write_record(const std::string& variant, double speed, const std::string& hash) {
-    const nlohmann::json json{
-        {"scene", "s1"}, {"case_hash", hash}, {"files", test::files_stated(series(speed))}};
-    write(paths_.records / "s1" / variant / "record.json", json.dump());
-    write(paths_.records / "s1" / variant / "series.csv", series(speed));
-  }
-
-  Evaluation evaluate_row(const std::string& row) {
-    return evaluate(
-        parse_table("[[run]]\nid = \"s1\"\n[[check]]\nrun = \"s1\"\nfrequency = \"verify\"\n" + row, "t"),
-        Frequency::verify, paths_);
-  }
-
-  double height_of_s1() const { return scene_.bed->box.upper[1] - scene_.bed->box.lower[1]; }
-  // The run-out at T = 5 is 5 tau speed / h0.
-  double run_out_at_5(double speed) const {
-    const double height = height_of_s1();
-    return 5.0 * std::sqrt(height / scene_.gravity) * speed / height;
-  }
-
-  const std::string volume_row =
-      "metric = \"solid_volume_error\"\nreference = { kind = \"theory\", value = 0, source = \"x\" }\n"
-      "tolerance = { absolute = 1e-12, unit = \"-\" }\n";
-  const std::string record_row =
-      "metric = \"run_out\"\nat = 5\nreference = { kind = \"DEM\", record = \"s1\" }\n"
-      "tolerance = { absolute = 0.01, unit = \"-\" }\n";
-
-  test::TemporaryDirectory directory_;
-  const fs::path& root_ = directory_.path();
-  Paths paths_{root_ / "runs", fs::path(GRANVOF_CASES_DIR), root_ / "records"};
-  Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml");
-};
 
 // A toe that is too loose for the dense front from T = 8 on: the run-out goes on by the front it began with.
 TEST_F(Evaluate, ARunOutKeepsItsDefinitionToTheEnd) {
@@ -305,121 +233,6 @@ TEST_F(Evaluate, WhatIsLeftOutByNameIsNamedAndNotRed) {
   EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
   EXPECT_EQ(evaluation.unexpected(), 0);
   EXPECT_NE(terminal_table(evaluation).find("left out by name: s1.run_out@5.DEM"), std::string::npos);
-}
-
-TEST_F(Evaluate, OneDamagedSeedIsAnErrorOfTheRow) {
-  write_run("s1", series(0.1));
-  write_record("seed1", 0.1, scene_.reference_hash);
-  write_record("seed2", 0.1, scene_.reference_hash);
-  const fs::path cut = paths_.records / "s1" / "seed2" / "series.csv";
-  fs::resize_file(cut, fs::file_size(cut) / 2);
-  const Evaluation evaluation = evaluate_row(record_row);
-  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
-  EXPECT_NE(evaluation.results[0].note.find("seed2"), std::string::npos) << evaluation.results[0].note;
-  ASSERT_EQ(evaluation.results.size(), 2u);
-  EXPECT_EQ(evaluation.unexpected(), 2);  // the row, and the record by its name
-  EXPECT_EQ(evaluation.results[1].check.id, "evidence." + cut.parent_path().string());
-}
-
-// A run of another length is compared over what both cover.
-TEST_F(Evaluate, ARecordMayBeLongerOrShorterThanTheRun) {
-  write_record("seed1", 0.1, scene_.reference_hash);
-  for (const char* end : {"5", "20"}) {
-    const std::vector<std::string> set{std::string("time.end=") + end};
-    Scene other = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml", set);
-    other.reference_hash = scene_.reference_hash;  // whatever the hash knows of the end
-    EXPECT_TRUE(load_records(paths_.records, "s1", other).at(0).run) << end;
-  }
-}
-
-TEST_F(Evaluate, ARecordThatEndsBeforeItsTimeIsAnError) {
-  const std::string text = series(0.1);
-  const std::string cut = text.substr(0, text.find("\n", text.size() / 2) + 1);
-  const nlohmann::json json{{"scene", "s1"},
-                            {"case_hash", scene_.reference_hash},
-                            {"simulated_time", scene_.times.end},
-                            {"files", test::files_stated(cut)}};
-  write(paths_.records / "s1" / "seed1" / "record.json", json.dump());
-  write(paths_.records / "s1" / "seed1" / "series.csv", cut);
-  const LoadedRun loaded = load_records(paths_.records, "s1", scene_).at(0);
-  EXPECT_EQ(loaded.state, RunState::refused);
-  EXPECT_NE(loaded.reason.find("it ends at"), std::string::npos) << loaded.reason;
-}
-
-TEST_F(Evaluate, ADamagedRunIsAnErrorAndTheOthersAreJudged) {
-  write_run("s1", series(0.1));
-  write_run("other", series(0.1));
-  const fs::path cut = paths_.runs / "other" / "series.csv";
-  fs::resize_file(cut, fs::file_size(cut) - 1);  // the last row has no end
-  const std::string check = "[[check]]\nrun = [\"s1\", \"other\"]\nfrequency = \"verify\"\n" + volume_row;
-  const Evaluation evaluation =
-      evaluate(parse_table("[[run]]\nid = \"s1\"\n[[run]]\nid = \"other\"\ncase = \"s1\"\n" + check, "t"),
-               Frequency::verify, paths_);
-  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::agrees);
-  EXPECT_EQ(evaluation.results[1].judgement.verdict, Verdict::error);
-  EXPECT_EQ(evaluation.unexpected(), 1);
-  EXPECT_NE(evaluation.runs[1].reason.find("it has 200 whole rows, written were 201"), std::string::npos)
-      << evaluation.runs[1].reason;
-}
-
-// Also where the row is only reported.
-TEST_F(Evaluate, ADamagedRunIsRedWhereNothingIsAsserted) {
-  write_run("s1", series(0.1));
-  write(paths_.runs / "s1" / "series.csv", "");
-  EXPECT_EQ(evaluate_row("asserted = false\n" + volume_row).unexpected(), 1);
-}
-
-TEST_F(Evaluate, ARunOfAnEarlierVersionIsAnError) {
-  write_run("s1", series(0.1));
-  auto json = nlohmann::json::parse(read_file(paths_.runs / "s1" / "run.json"));
-  json.erase("files");
-  write(paths_.runs / "s1" / "run.json", sealed(json.dump(2)));
-  const Evaluation evaluation = evaluate_row(volume_row);
-  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
-  EXPECT_NE(evaluation.runs[0].reason.find("made by an earlier version"), std::string::npos);
-}
-
-// What a damaged file holds is quoted, and need not be text: the other verdicts must still be written.
-TEST_F(Evaluate, ABrokenByteInAHeaderLeavesAResultThatCanBeWritten) {
-  write_run("s1", series(0.1));
-  std::string text = series(0.1);
-  text[text.find('[')] = '\xae';
-  write(paths_.runs / "s1" / "series.csv", text);
-  const Evaluation evaluation = evaluate_row(volume_row);
-  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error);
-  EXPECT_NO_THROW(results_json(evaluation, Frequency::verify, "2026-01-01T00:00:00Z"));
-}
-
-// Any byte of it, the digest too: what it reports is what the verdict rests on.
-TEST_F(Evaluate, ARunJsonInWhichADigitWasChangedIsAnError) {
-  write_run("s1", series(0.1));
-  const std::string file = paths_.runs / "s1" / "run.json", whole = read_file(file);
-  EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::agrees);
-  const auto changed = [&](const std::string& from, const std::string& to) {
-    std::string text = whole;
-    text.replace(text.find(from), from.size(), to);
-    return text;
-  };
-  std::string no_seal = nlohmann::json::parse(whole).dump(2);
-  for (const std::string& text : {changed("1e-15", "2e-15"), changed("2.5", "2.6"),
-                                  changed("\n  \"sha256\": \"", "\n  \"sha256\": \"0"),
-                                  changed("\n  \"sha256\"", "\n  \"sha255\""), whole + " ", no_seal}) {
-    write(file, text);
-    const Evaluation evaluation = evaluate_row(volume_row);
-    EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::error) << text;
-    EXPECT_NE(evaluation.runs[0].reason.find("run.json"), std::string::npos) << evaluation.runs[0].reason;
-  }
-}
-
-TEST_F(Evaluate, ValuesOfTheWrongKindInRunJsonAreAnError) {
-  for (const char* change :
-       {R"({"grid": {"cells": 3}})", R"({"files": []})", R"({"files": {"series.csv": {"rows": "x"}}})"}) {
-    write_run("s1", series(0.1));
-    auto json = nlohmann::json::parse(read_file(paths_.runs / "s1" / "run.json"));
-    json.update(nlohmann::json::parse(change));
-    write(paths_.runs / "s1" / "run.json", sealed(json.dump(2)));
-    EXPECT_EQ(evaluate_row(volume_row).results[0].judgement.verdict, Verdict::error) << change;
-  }
 }
 
 TEST_F(Evaluate, NothingDueIsNoSuccess) {

@@ -14,7 +14,7 @@ void for_side(const Layout& l, int d, Body&& body) {
 
 }  // namespace
 
-Boundary::Boundary(const Grid& grid, const Scene&, const Communicator& communicator)
+Boundary::Boundary(const Grid& grid, const Communicator& communicator)
     : grid_(grid), communicator_(communicator) {
   const Layout& l = grid.cells;
   grid.for_each_open_side([&](int d, bool upper) {
@@ -30,7 +30,7 @@ Boundary::Boundary(const Grid& grid, const Scene&, const Communicator& communica
         Vec3 place{};
         for (int c = 0; c < 3; ++c) place[c] = (at[c] + 0.5) * grid.h[c];
         place[d] = upper ? l.n[d] * grid.h[d] : 0.0;
-        side_pressure_[l.index(at[0], at[1], at[2])] = rule.pressure(place);
+        side_pressure_[l.index(at)] = rule.pressure(place);
       }
   });
 }

@@ -8,7 +8,7 @@ namespace granvof {
 
 class Boundary {
  public:
-  Boundary(const Grid& grid, const Scene& scene, const Communicator& communicator);
+  Boundary(const Grid& grid, const Communicator& communicator);
 
   // Zero normal gradient; `beyond` where given on sides that pass the fluid.
   void fill_scalar(Field& f) const;

@@ -34,6 +34,15 @@ inline Range common(const Range& a, const Range& b) {
   return both;
 }
 
+// visit(std::array<int, 3> place) for every place of the range, x fastest, one after the other: for what is
+// done once, or in an order.
+template <typename Visit>
+inline void for_each_place(const Range& r, Visit&& visit) {
+  for (int k = r.lower[2]; k < r.upper[2]; ++k)
+    for (int j = r.lower[1]; j < r.upper[1]; ++j)
+      for (int i = r.lower[0]; i < r.upper[0]; ++i) visit(std::array<int, 3>{i, j, k});
+}
+
 inline constexpr int cells_that_pay_for_threads = 8000;  // measured: below it a second thread costs more
 
 // body(std::ptrdiff_t index) for every value in the range.

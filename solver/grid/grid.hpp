@@ -15,6 +15,8 @@ namespace granvof {
 
 inline constexpr int ghost_layers = 2;  // the widest stencil (limited upwind, CICSAM) looks two cells upwind
 
+inline constexpr int vertical = 1;  // the direction across the floor
+
 struct Grid {
   int dim = 2;                    // computed directions; a 2D grid stores one layer in z and never touches it
   Layout cells;                   // layout shared by cell and face fields

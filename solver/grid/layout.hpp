@@ -35,6 +35,7 @@ struct Layout {
   std::ptrdiff_t index(int i, int j, int k) const {
     return origin + i * stride[0] + j * stride[1] + k * stride[2];
   }
+  std::ptrdiff_t index(const std::array<int, 3>& at) const { return index(at[0], at[1], at[2]); }
   std::size_t count() const { return std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]); }
 };
 

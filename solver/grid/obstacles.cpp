@@ -6,17 +6,6 @@
 namespace granvof {
 namespace {
 
-template <typename Visit>
-void for_places(const std::array<int, 3>& lower, const std::array<int, 3>& upper, Visit&& visit) {
-  for (int k = lower[2]; k < upper[2]; ++k)
-    for (int j = lower[1]; j < upper[1]; ++j)
-      for (int i = lower[0]; i < upper[0]; ++i) visit(std::array<int, 3>{i, j, k});
-}
-
-std::ptrdiff_t index(const Layout& l, const std::array<int, 3>& at) {
-  return l.index(at[0], at[1], at[2]);
-}
-
 std::array<int, 3> place_of(const Layout& l, std::ptrdiff_t c) {
   std::array<int, 3> at{};
   for (int d = 0; d < 3; ++d) {
@@ -44,9 +33,9 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
       lower[d] = static_cast<int>(std::lround(box.lower[d] / spacing[d]));
       upper[d] = static_cast<int>(std::lround(box.upper[d] / spacing[d]));
     }
-    for_places(lower, upper, [&](const std::array<int, 3>& at) {
-      char& solid = solid_[static_cast<std::size_t>(index(l, at))];
-      if (solid == 0) cells_.push_back(index(l, at));
+    for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
+      char& solid = solid_[static_cast<std::size_t>(l.index(at))];
+      if (solid == 0) cells_.push_back(l.index(at));
       solid = 1;
     });
   }
@@ -57,16 +46,16 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
     lower[d] = -l.ghost[d];
     upper[d] += l.ghost[d];
   }
-  for_places(lower, upper, [&](const std::array<int, 3>& at) {
+  for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
     std::array<int, 3> inside{};
     for (int d = 0; d < 3; ++d) inside[d] = (at[d] % l.n[d] + l.n[d]) % l.n[d];
-    solid_[static_cast<std::size_t>(index(l, at))] = solid_[static_cast<std::size_t>(index(l, inside))];
+    solid_[static_cast<std::size_t>(l.index(at))] = solid_[static_cast<std::size_t>(l.index(inside))];
   });
   for (int d = 0; d < dim; ++d) {
     std::array<int, 3> end = l.n;
     end[d] += 1;
-    for_places({0, 0, 0}, end, [&](const std::array<int, 3>& at) {
-      const std::ptrdiff_t c = index(l, at);
+    for_each_place({{0, 0, 0}, end}, [&](const std::array<int, 3>& at) {
+      const std::ptrdiff_t c = l.index(at);
       if (is_solid(c) || is_solid(c - l.stride[d])) faces_[d].push_back(c);
     });
     for (int e = d + 1; e < dim; ++e) find_edges(l, d, e);
@@ -79,10 +68,10 @@ void Obstacles::find_edges(const Layout& l, int d, int e) {
   std::array<int, 3> lower{}, upper = l.n;
   for (const int axis : {d, e}) lower[axis] = l.periodic[axis] ? 0 : 1;
   const std::ptrdiff_t s = l.stride[d], t = l.stride[e];
-  for_places(lower, upper, [&](const std::array<int, 3>& at) {
+  for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
     Edge edge;
     edge.place = at;
-    edge.at = index(l, at);
+    edge.at = l.index(at);
     for (const std::ptrdiff_t c : {edge.at, edge.at - s, edge.at - t, edge.at - s - t})
       if (!is_solid(c)) edge.open[edge.cells++] = c;
     if (edge.cells == 0 || edge.cells == 4) return;
@@ -104,7 +93,7 @@ void Obstacles::find_surface(const Layout& l, int dim) {
     for (int reach = 1; reach <= dim; ++reach) {
       Surface surface{c, {}};
       const int deep = dim == 3 ? 1 : 0;
-      for_places({-1, -1, -deep}, {2, 2, deep + 1}, [&](const std::array<int, 3>& step) {
+      for_each_place({{-1, -1, -deep}, {2, 2, deep + 1}}, [&](const std::array<int, 3>& step) {
         if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) != reach) return;
         std::array<int, 3> at = place_of(l, c);
         for (int d = 0; d < 3; ++d) at[d] += step[d];

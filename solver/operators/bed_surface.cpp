@@ -9,8 +9,6 @@
 namespace granvof {
 namespace {
 
-constexpr int vertical = 1;
-
 // Gap of a cell to the least packing, as a share of that, through which grains above fall into it.
 constexpr double gap_that_yields = 0.05;
 // Grains above a free face, as a share of those below it, from which on they fall on it unhindered.
@@ -19,10 +17,6 @@ constexpr double falling_that_frees = 0.05;
 // 0 up to 0.9 of `end`, 1 from there on.
 double ramp(double x, double end) {
   return std::clamp(10.0 * x / end - 9.0, 0.0, 1.0);
-}
-
-bool closed_end(const Grid& grid, bool upper) {
-  return grid.side(vertical, upper).bears_grains;
 }
 
 Range row_of_cells(const Grid& grid, int j, int ghosts) {
@@ -50,7 +44,7 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
     if (light ? rho_s >= std::max(rho_l, rho_g) : rho_s <= std::min(rho_l, rho_g)) continue;
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
-    const double end = closed_end(grid, light) ? 1.0 : 0.0;
+    const double end = grid.side(vertical, light).bears_grains ? 1.0 : 0.0;
     for (int step = 0; step < n; ++step) {
       const bool first = step == 0;
       for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
@@ -79,7 +73,7 @@ void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, con
   const double *f = f_s.data(), *a = alpha.data();
   double* p = pressure.data();
   for (const bool upper : {false, true}) {
-    if (!closed_end(grid, upper)) continue;
+    if (!grid.side(vertical, upper).bears_grains) continue;
     const std::ptrdiff_t out = upper ? grid.stride(vertical) : -grid.stride(vertical);
     const double half = (upper ? -0.5 : 0.5) * normal_gravity(scene) * grid.h[vertical];
     const int j = upper ? grid.cells.n[vertical] - 1 : 0;

@@ -7,8 +7,6 @@
 namespace granvof {
 namespace {
 
-constexpr int up = 1;
-
 // Flux through the lower end of every item of a row that takes away what the items gain, in units of the
 // gain. Items are closed off below where !passable[i]; the gains between two such ends sum to zero but for
 // rounding. A row whose ends are joined carries no flux in the mean, or none where it is closed off.
@@ -46,7 +44,7 @@ class Closure {
     count_open_rows(aperture);
     columns_.assign(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[2]), 0.0);
     for (int k = 0; k < n_[2]; ++k)
-      for (int j = 0; j < n_[up]; ++j)
+      for (int j = 0; j < n_[vertical]; ++j)
         for (int i = 0; i < n_[0]; ++i) column(i, k) += gain_[grid_.cells.index(i, j, k)];
     if (grid_.dim == 3) even_out_along_z();
     even_out_along_x();
@@ -54,14 +52,14 @@ class Closure {
 
   // From the floor to the top of every column.
   void close_columns() {
-    const std::ptrdiff_t s = grid_.stride(up);
-    const double h = grid_.h[up];
-    double *q = flux_c_[up].data(), *gain = gain_.data();
-    const int last = grid_.side(up, true).passes_fluid ? n_[up] : n_[up] - 1;
+    const std::ptrdiff_t s = grid_.stride(vertical);
+    const double h = grid_.h[vertical];
+    double *q = flux_c_[vertical].data(), *gain = gain_.data();
+    const int last = grid_.side(vertical, true).passes_fluid ? n_[vertical] : n_[vertical] - 1;
     Range row = grid_.all_cells();
     for (int j = 0; j < last; ++j) {
-      row.lower[up] = j;
-      row.upper[up] = j + 1;
+      row.lower[vertical] = j;
+      row.upper[vertical] = j + 1;
       for_each(grid_.cells, row, [=](std::ptrdiff_t c) {
         q[c + s] += h * gain[c];
         gain[c + s] += gain[c];
@@ -77,7 +75,8 @@ class Closure {
   void count_open_rows(const Aperture& aperture) {
     open_rows_.assign(static_cast<std::size_t>(n_[0]), 0);
     for (int i = grid_.cells.periodic[0] ? 0 : 1; i < n_[0]; ++i)
-      for (int j = 0; j < n_[up]; ++j) open_rows(i) += aperture[0][grid_.cells.index(i, j, 0)] > 0.0 ? 1 : 0;
+      for (int j = 0; j < n_[vertical]; ++j)
+        open_rows(i) += aperture[0][grid_.cells.index(i, j, 0)] > 0.0 ? 1 : 0;
   }
 
   // Lets `flux` (of the gain of a whole column) pass from the neighbour below in direction d into column (i,
@@ -89,7 +88,7 @@ class Closure {
                          from = grid_.cells.index(below[0], below[1], below[2]);
     const double part = flux / rows;
     for (int j = 0; j < rows; ++j) {
-      const std::ptrdiff_t at = j * grid_.stride(up);
+      const std::ptrdiff_t at = j * grid_.stride(vertical);
       flux_c_[d][to + at] += grid_.h[d] * part;
       gain_[to + at] += part;
       gain_[from + at] -= part;
@@ -121,7 +120,7 @@ class Closure {
       const int wide = begins[part + 1] - begins[part];
       for (int k = joined ? 0 : 1; k < n_[2]; ++k)
         for (int i = begins[part]; i < begins[part + 1]; ++i)
-          pass(2, i, k, n_[up], flux[static_cast<std::size_t>(k)] / wide);
+          pass(2, i, k, n_[vertical], flux[static_cast<std::size_t>(k)] / wide);
     }
   }
 
@@ -150,7 +149,7 @@ class Closure {
 void close_continuity(const Grid& grid, const Boundary& boundary, const Aperture& aperture,
                       const FaceField& flux_s, FaceField& flux_c) {
   Closure closure(grid, flux_s, flux_c);
-  if (!grid.side(up, true).passes_fluid) closure.even_out_columns(aperture);
+  if (!grid.side(vertical, true).passes_fluid) closure.even_out_columns(aperture);
   closure.close_columns();
   for (int d = 0; d < grid.dim; ++d) boundary.exchange(flux_c[d]);
 }

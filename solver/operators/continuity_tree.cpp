@@ -6,20 +6,6 @@
 #include "solver/operators/flux_balance.hpp"
 
 namespace granvof {
-namespace {
-
-std::ptrdiff_t index(const Layout& l, const std::array<int, 3>& at) {
-  return l.index(at[0], at[1], at[2]);
-}
-
-template <typename Visit>
-void for_cells(const Range& r, Visit&& visit) {
-  for (int k = r.lower[2]; k < r.upper[2]; ++k)
-    for (int j = r.lower[1]; j < r.upper[1]; ++j)
-      for (int i = r.lower[0]; i < r.upper[0]; ++i) visit(std::array<int, 3>{i, j, k});
-}
-
-}  // namespace
 
 void ContinuityTree::grow(const Aperture& aperture) {
   const Layout& l = grid_.cells;
@@ -28,7 +14,7 @@ void ContinuityTree::grow(const Aperture& aperture) {
   std::vector<std::array<int, 3>> row;  // cells in the order in which they were reached
   row.reserve(l.count());
   const auto reach = [&](const std::array<int, 3>& at) {
-    char& seen = reached[static_cast<std::size_t>(index(l, at))];
+    char& seen = reached[static_cast<std::size_t>(l.index(at))];
     if (seen != 0) return false;
     seen = 1;
     row.push_back(at);
@@ -47,9 +33,9 @@ void ContinuityTree::grow(const Aperture& aperture) {
             to[d] = (to[d] + l.n[d]) % l.n[d];
           }
           // The face at the lower end of the upper of the two; on the seam that of the first cell.
-          const std::ptrdiff_t face = index(l, upper ? to : from);
+          const std::ptrdiff_t face = l.index(upper ? to : from);
           if (aperture[d][face] > 0.0 && reach(to))
-            steps_.push_back({index(l, to), index(l, from), d, face, upper ? -1.0 : 1.0});
+            steps_.push_back({l.index(to), l.index(from), d, face, upper ? -1.0 : 1.0});
         }
       }
     }
@@ -57,15 +43,15 @@ void ContinuityTree::grow(const Aperture& aperture) {
   for (int d = 0; d < grid_.dim; ++d) {
     for (const bool upper : {false, true}) {
       if (!grid_.side(d, upper).passes_fluid) continue;
-      for_cells(grid_.side_cells(d, upper), [&](const std::array<int, 3>& at) {
-        const std::ptrdiff_t face = index(l, at) + (upper ? l.stride[d] : 0);
+      for_each_place(grid_.side_cells(d, upper), [&](const std::array<int, 3>& at) {
+        const std::ptrdiff_t face = l.index(at) + (upper ? l.stride[d] : 0);
         if (aperture[d][face] > 0.0 && reach(at))
-          steps_.push_back({index(l, at), -1, d, face, upper ? 1.0 : -1.0});
+          steps_.push_back({l.index(at), -1, d, face, upper ? 1.0 : -1.0});
       });
     }
   }
   spread();
-  for_cells(grid_.all_cells(), [&](const std::array<int, 3>& at) {
+  for_each_place(grid_.all_cells(), [&](const std::array<int, 3>& at) {
     if (reach(at)) spread();
   });
 }

@@ -49,8 +49,6 @@ class Friction {
   Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end, Field& kinetic);
 
  private:
-  static constexpr int vertical = 1;
-
   void fit_box(const FaceInertia& inertia);
   void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);

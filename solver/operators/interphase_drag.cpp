@@ -8,7 +8,6 @@
 namespace granvof {
 namespace {
 
-constexpr int vertical = 1;
 // Share of a face's grains that the fluid moves at least. What rests is balanced by its contact pressure but
 // for the difference between the densities of fluid that cell and face see: at a water level next to nothing
 // would meet no drag at all.

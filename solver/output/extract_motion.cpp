@@ -38,8 +38,7 @@ double gas_share(const CellFields& f, std::size_t c) {
   return (1.0 - f.alpha[c]) * (1.0 - f.f_s[c]);
 }
 
-using Share = double (*)(const CellFields&, std::size_t);
-
+template <class Share>
 double kinetic_energy(const CellFields& fields, const Scene& scene, Share share, const Velocity& u,
                       double density) {
   double sum = 0.0;
@@ -47,6 +46,7 @@ double kinetic_energy(const CellFields& fields, const Scene& scene, Share share,
   return 0.5 * density * sum * cell_volume(fields, scene);
 }
 
+template <class Share>
 double potential_energy(const CellFields& fields, const Scene& scene, Share share, double density) {
   const Vec3 g = confined_gravity(scene);
   double height = 0.0, along = 0.0;  // sums of share times y and x in cells
@@ -106,11 +106,10 @@ Value potential_energy_liquid(const CellFields& fields, const Scene& scene) {
 }
 Value potential_energy_gas(const CellFields& fields, const Scene& scene) {
   const std::vector<bool> solid = obstacle_cells(fields, scene);
-  const double all = potential_energy(fields, scene, gas_share, scene.gas.density);
-  if (solid.empty()) return all;
-  CellFields inside = fields;  // what the cells of obstacles would hold
-  for (std::size_t c = 0; c < solid.size(); ++c) inside.f_s[c] = solid[c] ? 0.0 : 1.0;
-  return all - potential_energy(inside, scene, gas_share, scene.gas.density);
+  const auto share = [&](const CellFields& f, std::size_t c) {
+    return !solid.empty() && solid[c] ? 0.0 : gas_share(f, c);
+  };
+  return potential_energy(fields, scene, share, scene.gas.density);
 }
 
 }  // namespace granvof::scalar

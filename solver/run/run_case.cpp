@@ -47,7 +47,7 @@ class Run {
       : scene_(scene),
         options_(options),
         grid_(scene),
-        boundary_(grid_, scene, communicator_),
+        boundary_(grid_, communicator_),
         step_(grid_, scene, boundary_, communicator_),
         control_(grid_, scene),
         now_(initial_state(grid_, scene, boundary_)),

@@ -13,14 +13,6 @@
 namespace granvof {
 namespace {
 
-template <typename Body>
-void for_cells(const Grid& grid, Body&& body) {
-  const Layout& l = grid.cells;
-  for (int k = 0; k < l.n[2]; ++k)
-    for (int j = 0; j < l.n[1]; ++j)
-      for (int i = 0; i < l.n[0]; ++i) body(std::array<int, 3>{i, j, k}, l.index(i, j, k));
-}
-
 // A bed whose packing is a matter of its history is at rest at whatever solid fraction it has: P_s carries
 // the submerged weight of the grains above, and f_p follows from (13). What no floor or lid holds hangs in
 // free fall, or floats: of its load only what bends it is borne, none where all grains weigh alike.
@@ -101,7 +93,8 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
   s.time = 0.0 - scene.times.hold;  // 0, not -0, without a hold
   const double loosest = scene.contact.solid_fraction_min;
   s.packing.fill(loosest);
-  for_cells(grid, [&](const std::array<int, 3>& cell, std::ptrdiff_t c) {
+  for_each_place(grid.all_cells(), [&](const std::array<int, 3>& cell) {
+    const std::ptrdiff_t c = grid.cells.index(cell);
     Box box;
     for (int d = 0; d < 3; ++d) box.upper[d] = (box.lower[d] = cell[d] * grid.h[d]) + grid.h[d];
     if (scene.bed) {

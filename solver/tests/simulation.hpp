@@ -21,7 +21,7 @@ class Simulation {
   explicit Simulation(Scene given)
       : scene(std::move(given)),
         grid(scene),
-        boundary(grid, scene, communicator_),
+        boundary(grid, communicator_),
         now(initial_state(grid, scene, boundary)),
         next_(grid),
         step_(grid, scene, boundary, communicator_),

@@ -35,7 +35,7 @@ inline void make_periodic(Scene& scene, int d) {
 }
 
 struct Tank {
-  explicit Tank(Scene given) : scene(std::move(given)), grid(scene), boundary(grid, scene, communicator) {}
+  explicit Tank(Scene given) : scene(std::move(given)), grid(scene), boundary(grid, communicator) {}
   Tank(const Tank&) = delete;
   Tank& operator=(const Tank&) = delete;
   Tank(Tank&&) = delete;

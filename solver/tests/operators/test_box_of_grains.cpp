@@ -34,7 +34,7 @@ TEST(BoxOfGrains, HoldsEveryFaceWithGrainsAndARowAround) {
                                         {39, 39, dim == 3 ? 39 : 0},
                                         {7, 8, dim == 3 ? 15 : 0},
                                         {16, 23, dim == 3 ? 31 : 0}}) {
-      const std::ptrdiff_t cell = g.s.grid.cells.index(at[0], at[1], at[2]);
+      const std::ptrdiff_t cell = g.s.grid.cells.index(at);
       const Range box = g.box([&](const Vec3& x) {
         bool here = true;
         for (int d = 0; d < dim; ++d) here = here && int(x[d] * 40.0) == at[d] && x[d] >= 0.0;

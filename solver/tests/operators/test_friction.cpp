@@ -48,7 +48,7 @@ class Energy {
     if (found != unknown_[d].end()) {
       row[found->second] += factor;
     } else {
-      constant += factor * bed_.u[d][s_.grid.cells.index(at[0], at[1], at[2])];
+      constant += factor * bed_.u[d][s_.grid.cells.index(at)];
     }
   }
   void add_square(double weight, const Eigen::VectorXd& row, double constant) {
@@ -98,7 +98,7 @@ class Energy {
   void expect_solution(double tolerance) {
     for (int d = 0; d < dim(); ++d)
       for (const auto& [at, row] : unknown_[d]) {
-        const std::ptrdiff_t c = s_.grid.cells.index(at[0], at[1], at[2]);
+        const std::ptrdiff_t c = s_.grid.cells.index(at);
         a_(row, row) += bed_.mass[d][c];
         b_[row] += bed_.rhs[d][c];
       }
@@ -106,7 +106,7 @@ class Energy {
     ASSERT_GT(exact.lpNorm<Eigen::Infinity>(), 0.1);
     for (int d = 0; d < dim(); ++d)
       for (const auto& [at, row] : unknown_[d])
-        EXPECT_NEAR(bed_.u[d][s_.grid.cells.index(at[0], at[1], at[2])], exact[row], tolerance) << d;
+        EXPECT_NEAR(bed_.u[d][s_.grid.cells.index(at)], exact[row], tolerance) << d;
   }
 
  private:

@@ -14,7 +14,7 @@ struct Control {
   explicit Control(const std::vector<std::string>& overrides = {})
       : scene(column_scene(overrides)),
         grid(scene),
-        boundary(grid, scene, communicator),
+        boundary(grid, communicator),
         state(initial_state(grid, scene, boundary)),
         control(grid, scene) {
     state.time = 1.0;  // the gate is up

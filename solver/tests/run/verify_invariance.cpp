@@ -68,7 +68,7 @@ void for_each_place(const Grid& grid, int d, Visit&& visit) {
 }
 
 std::ptrdiff_t index(const Grid& grid, const std::array<int, 3>& at) {
-  return grid.cells.index(at[0], at[1], at[2]);
+  return grid.cells.index(at);
 }
 
 // visit(name, field, the other run's field, direction of faces or `cells`, sign) of every field of two
