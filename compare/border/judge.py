@@ -9,6 +9,8 @@ import subprocess
 import tomllib
 from dataclasses import dataclass
 
+from granvof_files import required
+
 # Classes of an outcome, from good to bad. The last is the one that must not exist: wrong, and no monitor says so.
 HOLDS, COLLAPSE, BLOW_UP, DETECTED, UNDETECTED = (
     "holds", "step collapse", "blow-up", "wrong answer, detected", "wrong answer, undetected")
@@ -54,7 +56,7 @@ class Runner:
         ended, out = self.run(scene.case, overrides, name)
         if ended == "timeout":
             return Outcome(COLLAPSE, f"not done after {self.timeout:g} core-s")
-        record = json.loads((out / "run.json").read_text())
+        record = json.loads(required(out / "run.json").read_text())
         self.core_seconds += record["core_seconds"]
         outcome = self.classify(record, allow)
         # What a monitor warns of, allowed or not, is detected.
@@ -67,7 +69,7 @@ class Runner:
         if ended == "timeout":
             return Outcome(COLLAPSE, f"half the step takes more than {self.timeout:g} core-s", outcome.steps,
                            outcome.core_seconds)
-        other = json.loads((finer / "run.json").read_text())
+        other = json.loads(required(finer / "run.json").read_text())
         self.core_seconds += other["core_seconds"]
         if other["exit"]["state"] != "finished":
             return Outcome(apart, f"half the step fails: {other['exit']['reason']}", outcome.steps, outcome.core_seconds)
@@ -95,7 +97,7 @@ class Runner:
 
 def series(run, column):
     """(times, values) of a column of series.csv; undefined values left out."""
-    with open(run / "series.csv", newline="") as file:
+    with open(required(run / "series.csv"), newline="") as file:
         rows = list(csv.reader(file))
     names = [name.split(" [")[0] for name in rows[0]]
     at = names.index(column)

@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "solver/output/own_process.hpp"
+
 namespace granvof::compare {
 
 namespace {
@@ -54,6 +56,7 @@ Ended run_program(const std::vector<std::string>& command, const std::filesystem
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
 
+  expect_to_be_told_of_ends();
   const pid_t child = start(arguments, log);
 
   using Clock = std::chrono::steady_clock;

@@ -8,7 +8,8 @@ import h5py
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 
 def row_of(**changed):

@@ -102,9 +102,10 @@ int keys() {
 std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
-  return fmt::format(
-      "granvof: {} (granvof --help says what is allowed)\n",
-      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what());
+  const std::string what =
+      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what();
+  return fmt::format("granvof: {} (granvof --help says what is allowed)\n",
+                     granvof::case_file::printable(what, longest_message));
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -166,6 +167,11 @@ void send_messages_to_stderr() {
   spdlog::set_default_logger(spdlog::stderr_color_mt("granvof"));
 }
 
+int say(const std::exception& error, int code) {
+  fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -175,14 +181,14 @@ int main(int argc, char** argv) {
     const int code = parse_and_run(argc, argv);
     granvof::require_stdout_written();
     return code;
-  } catch (const granvof::CaseError& error) {
+  } catch (const granvof::CaseError& error) {  // a line for each fault, made printable where it was found
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
   } catch (const granvof::OutputError& error) {
-    fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
-    return bad_input;
+    return say(error, bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {  // such as a link to itself
+    return say(error, bad_input);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "granvof: {}\n", error.what());
-    return 1;
+    return say(error, 1);
   }
 }
