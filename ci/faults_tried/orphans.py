@@ -10,6 +10,7 @@ from pathlib import Path
 from faults_tried.bench import NotTried, TableError
 
 START = 180.0  # seconds until the program has started another
+REPORT = 900.0  # seconds until it has said what it made of that
 END = 30.0  # seconds after the signal in which all of them must have gone
 
 
@@ -78,7 +79,7 @@ def ended_children(bench, entry):
         for pid in children():
             os.kill(pid, getattr(signal, "SIG" + name))
         try:
-            said = running.communicate(timeout=START)[0].decode(errors="replace")
+            said = running.communicate(timeout=REPORT)[0].decode(errors="replace")
         except subprocess.TimeoutExpired:
             running.kill()
             running.wait()

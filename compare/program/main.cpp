@@ -20,6 +20,7 @@
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/output/standard_streams.hpp"
+#include "solver/program/empty_values.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 
@@ -186,6 +187,7 @@ int parse_and_run(int argc, char** argv) {
 
   StudyCommands study(app);
 
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -17,7 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
-from complaint import complain  # noqa: E402
+from complaint import complain, given_path  # noqa: E402
 from granvof_files import required  # noqa: E402
 from report import style  # noqa: E402
 from report.results import Damaged, read_json  # noqa: E402
@@ -227,11 +227,11 @@ def section(content, names, ablated, advised=()):
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--charts", type=Path, required=True, help="directory with points.json")
-    parser.add_argument("--ablations", type=Path, help="directory of the ablations (default: ablate beside it)")
-    parser.add_argument("--advice", type=Path, help="directory of the advice (default: advise beside it)")
-    parser.add_argument("--keep", type=Path, help="copy what was drawn from to this directory")
-    parser.add_argument("--picture", type=Path, help="write the picture of one scene here too (PNG, few bytes)")
+    parser.add_argument("--charts", type=given_path, required=True, help="directory with points.json")
+    parser.add_argument("--ablations", type=given_path, help="directory of the ablations (default: ablate beside it)")
+    parser.add_argument("--advice", type=given_path, help="directory of the advice (default: advise beside it)")
+    parser.add_argument("--keep", type=given_path, help="copy what was drawn from to this directory")
+    parser.add_argument("--picture", type=given_path, help="write the picture of one scene here too (PNG, few bytes)")
     parser.add_argument("--scene", default="s1", help="the scene of --picture (s1)")
     options = parser.parse_args(arguments)
     try:

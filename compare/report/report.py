@@ -8,15 +8,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
-from complaint import complain  # noqa: E402
+from complaint import complain, given_path  # noqa: E402
 from report import charts, figures, kept_results, page, results, sections  # noqa: E402
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--verify", type=Path, required=True, help="directory with results.json and curves.json")
-    parser.add_argument("--cases", type=Path, default=ROOT / "cases", help="case files, with published/")
-    parser.add_argument("--kept", type=Path, default=ROOT / "compare/kept", help="results of earlier studies, for what was not run")
+    parser.add_argument("--verify", type=given_path, required=True, help="directory with results.json and curves.json")
+    parser.add_argument("--cases", type=given_path, default=ROOT / "cases", help="case files, with published/")
+    parser.add_argument("--kept", type=given_path, default=ROOT / "compare/kept", help="results of earlier studies, for what was not run")
     options = parser.parse_args(arguments)
     try:
         loaded = results.load(options.verify, options.cases)

@@ -19,7 +19,7 @@ from statistics import mean
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
-from complaint import complain  # noqa: E402
+from complaint import complain, given_path  # noqa: E402
 from granvof_files import required  # noqa: E402
 from report import charts, kept_results  # noqa: E402
 
@@ -245,9 +245,9 @@ def check(root, kept, verified):
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--verify", type=Path, help="directory with results.json of `make verify`")
+    parser.add_argument("--verify", type=given_path, help="directory with results.json of `make verify`")
     parser.add_argument("--check", action="store_true", help="only say whether the tables are current")
-    parser.add_argument("--root", type=Path, default=ROOT, help="the repository")
+    parser.add_argument("--root", type=given_path, default=ROOT, help="the repository")
     options = parser.parse_args(arguments)
     path = options.root / "compare/kept/verify/results.json"
     kept, verified = kept_results.read(path), None

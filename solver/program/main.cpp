@@ -16,6 +16,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/program/empty_values.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
@@ -120,9 +121,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& run_command = *app.add_subcommand("run", "Run a case and write its results");
   add_case(run_command, arguments);
   std::string out;
-  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")
-      ->type_name("DIR")
-      ->check([](const std::string& dir) { return dir.empty() ? "got \"\", allowed: a directory" : ""; });
+  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")->type_name("DIR");
   run_command.add_option("--threads", arguments.run.threads, "Threads")
       ->capture_default_str()
       ->check(CLI::Range(1, most_threads))
@@ -150,6 +149,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& keys_command =
       *app.add_subcommand("keys", "Print the reference table of a case's keys (Markdown)");
 
+  granvof::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -11,6 +11,7 @@
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "solver/output/standard_streams.hpp"
+#include "solver/program/empty_values.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 
@@ -89,6 +90,7 @@ int parse_and_run(int argc, char** argv) {
       app.add_subcommand("hash", "Print two hashes: of what the reference depends on, and of the case");
   add_case(*hash_command, arguments);
 
+  granvof::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
