@@ -51,7 +51,8 @@ class RunWriter {
   void finish(const RunProgress& progress, const RunExit& exit);
   // Instead of finish() where that or another call has thrown: run.json says why, if it can be written at
   // all.
-  void give_up(const RunProgress& progress, const std::string& reason) noexcept;
+  void give_up(const RunProgress& progress, const std::string& reason,
+               ExitKind kind = ExitKind::error) noexcept;
 
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
   // Time of the checkpoint on the disk [s]; none yet, none.
