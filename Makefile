@@ -2,7 +2,8 @@
 #
 # REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is named as left out, and not judged)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
-# OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
+# OUT=dir           where results go (default: out)          JOBS=n     jobs: compiling, tests, runs beside each other
+# GO_ON=yes         make verify keeps the runs that this very program has made, and goes on with those cut short
 # PREFIX=dir        where make install puts it (default: /usr/local)
 # LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
@@ -45,8 +46,8 @@ package: build  ## a Debian package of the same, for this machine's processor: o
 verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
 	$(call need,compare/verify)
 	ci/build --programs --reference=$(REFERENCE) release
-	compare/verify --build-dir $(RELEASE) --out "$(OUT)" $(if $(VERIFY),--frequency $(VERIFY)) \
-	  $(if $(filter off,$(REFERENCE)),--without-canary)
+	compare/verify --build-dir $(RELEASE) --out "$(OUT)" --jobs $(JOBS) $(if $(VERIFY),--frequency $(VERIFY)) \
+	  $(if $(GO_ON),--go-on) $(if $(filter off,$(REFERENCE)),--without-canary)
 
 test: setup  ## unit and verification tests (ctest), then the Python tests
 	ci/build --reference=$(REFERENCE) release
@@ -74,7 +75,7 @@ runout: setup  ## why the run-out runs ahead late (compare/late-run-out.toml): s
 
 stability: setup  ## where the methods hold and fail, by bisection (half an hour); out/stability, drawn by `make plots`
 	ci/build --programs release
-	compare/stability --build-dir $(RELEASE) --out "$(OUT)"
+	compare/stability --build-dir $(RELEASE) --out "$(OUT)" --jobs $(JOBS)
 
 nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)

@@ -192,6 +192,19 @@ std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency) {
   return due;
 }
 
+std::vector<Order> orders_of(const Table& table, Frequency frequency, const Paths& paths) {
+  std::set<std::string> timed;
+  for (const Check& check : due_checks(table, frequency))
+    if (find_metric(check.metric)->of_cost) timed.insert(check.run);
+  std::vector<Order> orders;
+  for (const PlannedRun& run : due_runs(table, frequency)) {
+    Order order{run.id, paths.cases / (run.case_name + ".toml"), run.set, paths.runs / run.id};
+    order.timed = timed.contains(run.id);
+    orders.push_back(std::move(order));
+  }
+  return orders;
+}
+
 Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths, const LeftOut& left_out) {
   Evaluation evaluation;
   evaluation.causes = table.causes;

@@ -6,11 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "compare/checks/whole_run.hpp"
 #include "compare/input/curves.hpp"
-#include "compare/input/energy_budget.hpp"
 #include "compare/metrics/base_pressure.hpp"
 #include "compare/metrics/bed_slope.hpp"
-#include "compare/metrics/conservation.hpp"
 #include "compare/metrics/decay_rate.hpp"
 #include "compare/metrics/deposit_shape.hpp"
 #include "compare/metrics/fluid_pressure.hpp"
@@ -23,12 +22,13 @@
 #include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
-namespace {
 
 Measured measured(std::optional<double> value, std::string_view why_undefined) {
   if (value) return {value, ""};
   return {std::nullopt, fmt::format("undefined: {}", why_undefined)};
 }
+
+namespace {
 
 // --- collapse ------------------------------------------------------------------------------------------
 
@@ -125,6 +125,11 @@ Measured period(const Run& run, const Parameters& p, const FindRun&) {
   return measured(found ? std::optional(found->period) : std::nullopt, "fewer than two cycles in the window");
 }
 
+Measured level_period(const Run& run, const Parameters& p, const FindRun&) {
+  const auto found = oscillation(run.curve("liquid_height_left"), *p.window);
+  return measured(found ? std::optional(found->period) : std::nullopt, "fewer than two cycles in the window");
+}
+
 // The place of rest is the mean over the last tenth of the run. `least` is the smallest deviation that is
 // used [m].
 Measured decay_rate_of(const Run& run, Window window, double least) {
@@ -206,52 +211,6 @@ Measured ergun(const Run& run, const Parameters&, const FindRun&) {
   return of_last_fields(run, ergun_ratio);
 }
 
-// --- volumes, bounds, speeds, cost ---------------------------------------------------------------------
-
-// The solver's own account covers every step, the series only the output times: the worse of the two counts.
-// Where something flows through the tank the account alone knows what has passed its sides.
-Measured volume_error_of(const Run& run, std::string_view column, std::string_view fact) {
-  const auto counted = run.facts.number(fact);
-  const bool through = std::ranges::any_of(run.scene.sides, [](const Side& side) {
-    return side.kind == SideKind::inlet || side.kind == SideKind::outlet;
-  });
-  const auto sampled = through ? std::optional(0.0) : volume_error(run.curve(column));
-  if (!sampled || !counted) return {std::nullopt, "undefined: no volume in the series or in run.json"};
-  return {std::max(*sampled, std::abs(*counted)), ""};
-}
-
-Measured solid_volume_error(const Run& run, const Parameters&, const FindRun&) {
-  return volume_error_of(run, "solid_volume", "solid_volume_error");
-}
-
-Measured liquid_volume_error(const Run& run, const Parameters&, const FindRun&) {
-  return volume_error_of(run, "liquid_volume", "liquid_volume_error");
-}
-
-Measured solid_fraction_max(const Run& run, const Parameters&, const FindRun&) {
-  const auto sampled = maximum(run.curve("f_s_max"));
-  const auto counted = run.facts.number("solid_fraction_max");
-  if (!sampled || !counted)
-    return {std::nullopt, "undefined: no solid fraction in the series or in run.json"};
-  return {std::max(*sampled, *counted), ""};
-}
-
-Measured solid_fraction_min(const Run& run, const Parameters&, const FindRun&) {
-  return measured(minimum(run.curve("f_s_min")), "no solid fraction in the series");
-}
-
-Measured liquid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(maximum(clip(run.curve("u_liquid_max"), *p.window)), "no speed in the window");
-}
-
-Measured fluid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(maximum(clip(run.curve("u_c_max"), *p.window)), "no speed in the window");
-}
-
-Measured solid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(maximum(clip(run.curve("u_s_dense_max"), *p.window)), "no dense bed in the window");
-}
-
 // --- the same run otherwise stated ------------------------------------------------------------------------
 
 Measured difference_of_series(const Run& run, const Parameters& p, const FindRun& find) {
@@ -262,26 +221,6 @@ Measured difference_of_series(const Run& run, const Parameters& p, const FindRun
   const std::string where =
       found->column.empty() ? "" : fmt::format("in {} at T = {:.4g}", found->column, found->time);
   return {found->largest, where};
-}
-
-// --- energy and cost ---------------------------------------------------------------------------------------
-
-Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
-  return measured(closure_error(energy_budget(run), run.facts.number("energy_turnover")),
-                  "no energy budget in the series or in run.json");
-}
-
-Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
-  return measured(numerical_share(energy_budget(run), run.facts.number("energy_turnover")),
-                  "no energy budget in the series or in run.json");
-}
-
-Measured warnings(const Run& run, const Parameters&, const FindRun&) {
-  return measured(run.facts.number("warnings"), "run.json states no warnings");
-}
-
-Measured core_seconds(const Run& run, const Parameters&, const FindRun&) {
-  return measured(run.facts.number("core_seconds"), "run.json states no cost");
 }
 
 constexpr Needs none{};
@@ -326,6 +265,8 @@ constexpr std::array table{
                 immersed_share_free},
     MetricEntry{"period", "s", "period of the height of all solids, from crossings of its mean", window_only,
                 period},
+    MetricEntry{"level_period", "s", "period of the liquid's level at x = 0, from crossings of its mean",
+                window_only, level_period},
     MetricEntry{"decay_rate", "1/s",
                 "k of y = rest + A exp(-k t), y the height of all solids, rest its late mean, to half a cell "
                 "off rest",
@@ -380,7 +321,7 @@ constexpr std::array table{
                 "energy lost to numerics by the end over the energy turned over; negative: made", none,
                 energy_numerical},
     MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
-    MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds},
+    MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds, true},
 };
 
 }  // namespace

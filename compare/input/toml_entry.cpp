@@ -42,7 +42,7 @@ void TomlEntry::fail(std::string_view key, std::string_view what) const {
       fmt::format("{}:{}: {}{}: {}", file_, line, path_, key.empty() ? "" : fmt::format(".{}", key), what));
 }
 
-void TomlEntry::allow_only(std::initializer_list<std::string_view> keys) const {
+void TomlEntry::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
       fail(key.str(), fmt::format("unknown key; allowed: {}", fmt::join(keys, ", ")));

@@ -220,9 +220,9 @@ void RunWriter::finish(const RunProgress& progress, const RunExit& exit) {
   write_record(progress, exit);
 }
 
-void RunWriter::give_up(const RunProgress& progress, const std::string& reason) noexcept {
+void RunWriter::give_up(const RunProgress& progress, const std::string& reason, ExitKind kind) noexcept {
   if (!begun_) return;  // nothing of this run is on the disk, and what is there is another's
-  const RunExit exit{ExitState::failed, reason};
+  const RunExit exit{ExitState::failed, reason, kind};
   try {
     replace_record(run_record_text(scene_, record_, progress, files(), exit));
     if (fields_) fields_->bring_up_to_date();

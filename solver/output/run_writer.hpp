@@ -51,7 +51,8 @@ class RunWriter {
   void finish(const RunProgress& progress, const RunExit& exit);
   // Instead of finish() where that or another call has thrown: run.json says why, if it can be written at
   // all.
-  void give_up(const RunProgress& progress, const std::string& reason) noexcept;
+  void give_up(const RunProgress& progress, const std::string& reason,
+               ExitKind kind = ExitKind::error) noexcept;
   // Where a copy of this process wrote on, and was ended before it could say how: run.json, as the copy left
   // it, with this end, unless it states one.
   void note_end_of_copy(const std::string& reason) noexcept;

@@ -1,7 +1,9 @@
-// The program granvof: run, check, restate and keys. Exit codes: 0 done, 1 the run failed, 2 bad input.
+// The program granvof: run, check, restate and keys. Exit codes: 0 done, 1 the run failed or was stopped by a
+// signal, 2 bad input, 3 the run was stopped at its wall-clock limit (--stop-after).
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
 #include "solver/scene/cost_estimate.hpp"
+#include "solver/scene/duration.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/restate.hpp"
@@ -99,6 +102,16 @@ int keys() {
   return 0;
 }
 
+// What is wrong with a duration, for a person; empty where nothing is.
+std::string duration_fault(const std::string& text) {
+  try {
+    granvof::read_duration(text);
+    return "";
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+}
+
 // One line; a misspelt subcommand is named, where the library only says that one is required.
 std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
@@ -130,6 +143,12 @@ int parse_and_run(int argc, char** argv) {
       run_command.add_flag("--resume", arguments.run.resume, "Go on from the run directory's checkpoint");
   run_command.add_flag("--force", arguments.run.force, "Replace a run of another case in the run directory")
       ->excludes(resume);
+  std::string stop_after;
+  run_command
+      .add_option("--stop-after", stop_after,
+                  "Stop after so much wall-clock time, as 45s or 3h50m: checkpoint, exit code 3")
+      ->type_name("TIME")
+      ->check([](const std::string& text) { return duration_fault(text); });
   CLI::App& check_command =
       *app.add_subcommand("check", "Check a case and print it in full, defaults filled in");
   add_case(check_command, arguments);
@@ -156,6 +175,7 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
   arguments.run.out = out;
+  if (!stop_after.empty()) arguments.run.stop_after = granvof::read_duration(stop_after);
   if (keys_command.parsed()) return keys();
   if (check_command.parsed()) return check(arguments);
   if (restate_command.parsed()) return restate(arguments);

@@ -153,6 +153,7 @@ TEST_F(Program, RefusesBadCommands) {
   expect_refused("run", "case is required");
   expect_refused("run " + shipped("s1") + " --threads 0", "--threads");
   expect_refused("run " + shipped("s1") + " --thread 2", "--thread");
+  expect_refused("run " + shipped("s1") + " --stop-after 50", "--stop-after");
 }
 
 TEST_F(Program, RefusesBadCasesAndWritesNothing) {
@@ -209,6 +210,14 @@ TEST_F(Program, WarnsOnStderrWhateverBecomesOfStdout) {
   // with stderr closed as well, nothing of it gets into a result
   EXPECT_EQ(granvof("run " + shipped("canary-dry") + dense + " --out out <&- >&- 2>&-").code, 0);
   EXPECT_NE(record().find("\"state\": \"finished\""), std::string::npos);
+}
+
+TEST_F(Program, StopsAtItsWallClockLimitWithAnExitCodeOfItsOwn) {
+  const Outcome stopped =
+      granvof("run " + shipped("canary-dry") + " --set grid.dx=0.005 --out out --stop-after 0.0001s");
+  EXPECT_EQ(stopped.code, 3);
+  EXPECT_NE(stopped.err.find("--resume goes on from t = "), std::string::npos) << stopped.err;
+  EXPECT_NE(record().find("\"kind\": \"wall-clock limit\""), std::string::npos) << record();
 }
 
 TEST_F(Program, AFileThatMayNotGrowIsAnErrorLikeAFullDisk) {
