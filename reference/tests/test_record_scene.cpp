@@ -137,7 +137,7 @@ TEST(RecordScene, AScratchFolderMayHaveBlanks) {
   demvof::RecordOptions options;
   options.out = directory.path() / "run";
   options.scratch = directory.path() / "a b";
-  EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.001"}), options), 0);
+  EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.002"}), options), 0);
   for (const auto& left : fs::directory_iterator(options.scratch))
     EXPECT_NE(left.path().extension(), ".log") << left.path();
 }
