@@ -1,10 +1,10 @@
-# `make install` and `make package`: the two programs, the Python module, the shipped cases, what advise and ablate read,
+# `make install` and `make package`: the two programs, the Python modules, the shipped cases, what advise and ablate read,
 # man pages and completion. Both are made of the programs' own --help when they are installed.
 include(GNUInstallDirs)
 
 set(share ${CMAKE_INSTALL_DATADIR}/granvof)
 install(TARGETS granvof_program granvof-compare RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES solver/python/granvof.py DESTINATION lib/python3/dist-packages)
+install(FILES solver/python/granvof.py solver/python/granvof_files.py DESTINATION lib/python3/dist-packages)
 install(DIRECTORY cases DESTINATION ${share})
 install(FILES compare/checks.toml compare/study.toml DESTINATION ${share}/compare)
 install(FILES compare/kept/verify/results.json DESTINATION ${share}/compare/kept/verify)

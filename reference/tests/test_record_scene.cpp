@@ -118,3 +118,26 @@ TEST(RecordScene, AFailureBeforeTheFirstStepIsAnEndThatIsWritten) {
   EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
   EXPECT_NE(facts.find("scratch"), std::string::npos) << facts;
 }
+
+// LIGGGHTS ends the program where it finds an error, as it does in what it takes for a command with too many
+// words.
+TEST(RecordScene, AnEndByLiggghtsIsAnEndThatIsWritten) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options;
+  options.out = directory.path() / "run";
+  options.scratch = directory.path() / "a \" b";
+  EXPECT_EQ(demvof::record_scene(demvof::test::small(), options), 1);
+  const std::string facts = text_of(options.out / "run.json");
+  EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
+  EXPECT_NE(facts.find("LIGGGHTS ended the program with exit code 1: ERROR"), std::string::npos) << facts;
+}
+
+TEST(RecordScene, AScratchFolderMayHaveBlanks) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options;
+  options.out = directory.path() / "run";
+  options.scratch = directory.path() / "a b";
+  EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.002"}), options), 0);
+  for (const auto& left : fs::directory_iterator(options.scratch))
+    EXPECT_NE(left.path().extension(), ".log") << left.path();
+}

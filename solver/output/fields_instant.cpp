@@ -1,6 +1,7 @@
 #include "solver/output/fields_instant.hpp"
 
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -34,25 +35,6 @@ void write_vector(hid_t group, const char* name, const CellFields& fields,
   hdf5::write_compressed(group, name, shape, single);
 }
 
-// Time, grid and solid fraction.
-CellFields solid_fraction_of(hid_t file, hid_t group) {
-  CellFields fields;
-  fields.time = hdf5::read_double_attribute(group, "time");
-  const auto cells = hdf5::read_double_array_attribute(file, "cells");
-  const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
-  if (cells.size() != 3 || spacing.size() != 3) throw std::runtime_error("cells or spacing is not a triple");
-  std::size_t count = 1;
-  for (std::size_t d = 0; d < 3; ++d) {
-    fields.cells[d] = static_cast<int>(cells[d]);
-    fields.spacing[d] = spacing[d];
-    count *= static_cast<std::size_t>(fields.cells[d]);
-  }
-  fields.f_s = hdf5::read_doubles(group, "f_s");
-  if (fields.f_s.size() != count)
-    throw std::runtime_error(fmt::format("f_s has {} values for {} cells", fields.f_s.size(), count));
-  return fields;
-}
-
 std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
   const auto values = hdf5::read_doubles(group, name);
   std::array<std::vector<double>, 3> components;
@@ -77,9 +59,8 @@ void write_instant(hid_t group, const CellFields& fields) {
   write_vector(group, "u_c", fields, fields.u_c);
 }
 
-CellFields read_instant(hid_t file, const std::string& name) {
-  const auto group = hdf5::open_group(file, name);
-  CellFields fields = solid_fraction_of(file, group);
+CellFields read_instant(hid_t file, hid_t group) {
+  CellFields fields = read_solid_fraction_of(file, group);
   fields.alpha = hdf5::read_doubles(group, "alpha");
   fields.p_c = hdf5::read_doubles(group, "p_c");
   fields.theta = hdf5::read_doubles(group, "theta");
@@ -90,13 +71,29 @@ CellFields read_instant(hid_t file, const std::string& name) {
   try {
     check_sizes(fields);
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(name + ": " + error.what());
+    throw std::runtime_error(error.what());
   }
   return fields;
 }
 
-CellFields read_solid_fraction_of(hid_t file, const std::string& name) {
-  return solid_fraction_of(file, hdf5::open_group(file, name));
+CellFields read_solid_fraction_of(hid_t file, hid_t group) {
+  CellFields fields;
+  fields.time = hdf5::read_double_attribute(group, "time");
+  const auto cells = hdf5::read_double_array_attribute(file, "cells");
+  const auto spacing = hdf5::read_double_array_attribute(file, "spacing");
+  if (cells.size() != 3 || spacing.size() != 3) throw std::runtime_error("cells or spacing is not a triple");
+  double count = 1.0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!(cells[d] >= 1.0 && cells[d] <= std::numeric_limits<int>::max()))
+      throw std::runtime_error(fmt::format("there are {} cells in a direction", cells[d]));
+    fields.cells[d] = static_cast<int>(cells[d]);
+    fields.spacing[d] = spacing[d];
+    count *= cells[d];
+  }
+  fields.f_s = hdf5::read_doubles(group, "f_s");
+  if (static_cast<double>(fields.f_s.size()) != count)
+    throw std::runtime_error(fmt::format("f_s has {} values for {} cells", fields.f_s.size(), count));
+  return fields;
 }
 
 }  // namespace granvof

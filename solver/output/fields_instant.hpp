@@ -1,8 +1,6 @@
 // One instant of fields.h5: how cell fields lie in a group of HDF5.
 #pragma once
 
-#include <string>
-
 #include <hdf5.h>
 
 #include "solver/output/cell_fields.hpp"
@@ -13,10 +11,10 @@ namespace granvof {
 // Throws std::runtime_error with HDF5's message.
 void write_instant(hid_t group, const CellFields& fields);
 
-// The group `name` of a fields.h5, the grid from the attributes of `file`. Throws std::runtime_error, also
-// where arrays have not the size of the grid.
-CellFields read_instant(hid_t file, const std::string& name);
+// What a group holds, the grid from the attributes of `file`. Throws std::runtime_error, also where arrays
+// have not the size of the grid.
+CellFields read_instant(hid_t file, hid_t group);
 // Time, grid and solid fraction alone. Throws likewise.
-CellFields read_solid_fraction_of(hid_t file, const std::string& name);
+CellFields read_solid_fraction_of(hid_t file, hid_t group);
 
 }  // namespace granvof

@@ -18,6 +18,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/program/empty_values.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
@@ -115,9 +116,10 @@ std::string duration_fault(const std::string& text) {
 std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
-  return fmt::format(
-      "granvof: {} (granvof --help says what is allowed)\n",
-      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what());
+  const std::string what =
+      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what();
+  return fmt::format("granvof: {} (granvof --help says what is allowed)\n",
+                     granvof::case_file::printable(what, longest_message));
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -132,9 +134,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& run_command = *app.add_subcommand("run", "Run a case and write its results");
   add_case(run_command, arguments);
   std::string out;
-  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")
-      ->type_name("DIR")
-      ->check([](const std::string& dir) { return dir.empty() ? "got \"\", allowed: a directory" : ""; });
+  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")->type_name("DIR");
   run_command.add_option("--threads", arguments.run.threads, "Threads")
       ->capture_default_str()
       ->check(CLI::Range(1, most_threads))
@@ -168,6 +168,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& keys_command =
       *app.add_subcommand("keys", "Print the reference table of a case's keys (Markdown)");
 
+  granvof::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -186,6 +187,11 @@ void send_messages_to_stderr() {
   spdlog::set_default_logger(spdlog::stderr_color_mt("granvof"));
 }
 
+int say(const std::exception& error, int code) {
+  fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -195,14 +201,14 @@ int main(int argc, char** argv) {
     const int code = parse_and_run(argc, argv);
     granvof::require_stdout_written();
     return code;
-  } catch (const granvof::CaseError& error) {
+  } catch (const granvof::CaseError& error) {  // a line for each fault, made printable where it was found
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
   } catch (const granvof::OutputError& error) {
-    fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
-    return bad_input;
+    return say(error, bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {  // such as a link to itself
+    return say(error, bad_input);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "granvof: {}\n", error.what());
-    return 1;
+    return say(error, 1);
   }
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 
 #include "liggghts/library.h"
 #include "liggghts/library_cfd_coupling.h"
+#include "reference/demvof/beads/bead_log.hpp"
 #include "reference/demvof/beads/input_files.hpp"
 
 namespace demvof {
@@ -41,9 +43,9 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   std::filesystem::create_directories(settings_.scratch_folder);
   state_.velocity.resize(3 * mobile_, 0.0);
 
-  // A screen of "none" makes LIGGGHTS crash. Where it aborts, the log's last line says why.
+  // A screen of "none" makes LIGGGHTS crash. Where it ends the program, the log says why.
   std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log",
-                                 settings_.scratch_folder + "/liggghts.log"};
+                                 bead_log(settings_.scratch_folder, ::getpid())};
   std::vector<char*> arguments;
   arguments.reserve(words.size());
   for (std::string& word : words) arguments.push_back(word.data());
@@ -60,7 +62,7 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   const std::string file =
       fmt::format("{}/beads-{}-{}.data", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
   write_beads(file, settings_, mobile, frozen_positions);
-  command("read_data " + file);
+  command(fmt::format("read_data \"{}\"", file));
   std::filesystem::remove(file);
 
   command(fmt::format("neighbor {} bin", 0.3 * settings_.diameter));
@@ -95,7 +97,10 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
 }
 
 BeadEngine::~BeadEngine() {
-  if (lammps_ != nullptr) lammps_close(lammps_);
+  if (lammps_ == nullptr) return;
+  lammps_close(lammps_);
+  std::error_code ignored;
+  std::filesystem::remove(bead_log(settings_.scratch_folder, ::getpid()), ignored);
 }
 
 void BeadEngine::command(const std::string& line) {
@@ -143,7 +148,7 @@ void BeadEngine::declare_gate() {
   const std::string file =
       fmt::format("{}/gate-{}-{}.stl", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
   write_gate(file, settings_);
-  command(fmt::format("fix gate all mesh/surface file {} type 3", file));
+  command(fmt::format("fix gate all mesh/surface file \"{}\" type 3", file));
   std::filesystem::remove(file);
   command(fmt::format("fix gatewall mobile wall/{} mesh n_meshes 1 meshes gate", contact));
   gate_present_ = true;

@@ -10,11 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "reference/demvof/beads/mpi_session.hpp"
 #include "reference/demvof/preparation/column.hpp"
 #include "reference/demvof/program/progress.hpp"
 #include "reference/demvof/program/recording.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
 #include "reference/demvof/program/snapshot.hpp"
+#include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/output/stop_signals.hpp"
@@ -45,6 +47,7 @@ class Session {
   int go();  // to the end; the exit code
 
  private:
+  int work();  // what LIGGGHTS and OpenFOAM may end, in a process of its own
   Column prepare(const std::vector<double>& floor);
   void record();
   void note_release(const CoupledRun& run);
@@ -154,9 +157,9 @@ int Session::end(granvof::ExitState state, const std::string& reason) {
   }
 }
 
-int Session::go() {
+int Session::work() {
   try {
-    writer_.write_progress(progress_);  // run.json must not show an old end while this goes on
+    const MpiSession session;
     record();
     return end(granvof::ExitState::finished, "");
   } catch (const granvof::StopRequested& stop) {
@@ -164,6 +167,20 @@ int Session::go() {
   } catch (const std::exception& problem) {
     return end(granvof::ExitState::failed, problem.what());
   }
+}
+
+int Session::go() {
+  try {
+    writer_.write_progress(progress_);  // run.json must not show an old end while this goes on
+  } catch (const std::exception& problem) {
+    return end(granvof::ExitState::failed, problem.what());
+  }
+  const WorkEnd done = work_in_own_process([this] { return work(); });
+  if (done.code) return *done.code;
+  const std::string reason = reason_of(done, options_.scratch);
+  fmt::print(stderr, "demvof: {}: {}; {}\n", scene_.name, reason, nothing_to_resume);
+  writer_.note_end_of_copy(reason);
+  return 1;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "reference/demvof/preparation/rough_floor.hpp"
 #include "solver/scene/case_error.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace demvof {
 
@@ -24,9 +25,12 @@ constexpr double thinnest_slice = 2.0;
 constexpr double densest_pile = 0.66;  // spheres at random reach 0.64, a little more between walls [-]
 // Their contacts alone would take more than 10 GB, and their steps years.
 constexpr double most_beads = 1e7;
+constexpr std::size_t longest_name = 1000;  // of a file, in a message [bytes]
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
-  throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}", scene.file.string(), why));
+  throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}",
+                                       granvof::case_file::printable(scene.file.string(), longest_name),
+                                       why));
 }
 
 bool flat(const Scene& scene) {
