@@ -52,7 +52,7 @@ struct Gas {
   // f_s stays as it is: what the local balance does to Theta alone.
   void advance(double dt) {
     rheology.update(s.grid, s.scene, s.boundary, f_s, theta, Field(s.grid, 1.0), Field(s.grid),
-                    Field(s.grid, s.scene.contact.solid_fraction_min));
+                    Field(s.grid, s.scene.contact.solid_fraction_min), strain);
     const Field production = production_of(s, dt, theta, f_s, beta, strain, temperature, rheology);
     temperature.advance(dt, theta, f_s, f_s, flux, beta, rheology, strain, production, next);
     std::swap(theta, next);
@@ -206,7 +206,7 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       s.boundary.fill_scalar(theta);
       Rheology rheology(s.grid);
       rheology.update(s.grid, s.scene, s.boundary, f, theta, Field(s.grid, 1.0), Field(s.grid),
-                      Field(s.grid, s.scene.contact.solid_fraction_min));
+                      Field(s.grid, s.scene.contact.solid_fraction_min), StrainRate(s.grid));
       FaceField u = s.random_faces(-30.0, 30.0);
       s.boundary.fill_velocity(u, Phase::solid);
       StrainRate strain(s.grid);

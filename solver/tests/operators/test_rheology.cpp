@@ -30,7 +30,7 @@ std::array<double, rows> free_sides(const Scene& scene, const std::array<double,
   s.boundary.fill_scalar(f_s);
   Rheology rheology(s.grid);
   rheology.update(s.grid, s.scene, s.boundary, f_s, Field(s.grid, theta), Field(s.grid, 1.0),
-                  Field(s.grid, p_s), Field(s.grid, packed));
+                  Field(s.grid, p_s), Field(s.grid, packed), StrainRate(s.grid));
   std::array<double, rows> side{};
   for (int j = 0; j < rows; ++j)
     side[static_cast<std::size_t>(j)] = rheology.free_side[s.grid.cells.index(2, j, 0)];
