@@ -34,18 +34,21 @@ def matched(text, start, step, stop):
     depth, i = 0, start
     while 0 <= i < len(text):
         letter = text[i]
-        if depth == 0 and (letter in shallower or stop(i)):
+        if depth == 0 and (stop(i) or letter in shallower):
             return i
         depth += (letter in deeper) - (letter in shallower)
         i += step
     raise NoPlace("no end of the expression")
 
 
-def ends_expression(text):
+def ends_expression(text, conditional):
+    """Where a whole expression ends; a `conditional` one goes on over its question mark and colon."""
     def stop(i):
         letter = text[i]
-        if letter in ",;?" or (letter == ":" and text[i - 1] != ":" and text[i + 1:i + 2] != ":"):
+        if letter in ",;" or (not conditional and (letter == "?" or (letter == ":" and ":" not in (text[i - 1], text[i + 1])))):
             return True
+        if letter == "}":  # of a block, and a statement begins behind it
+            return re.match(r"}\s*\n\s*[A-Za-z_(*]", text[i:]) is not None
         return letter == "=" and bool(re.match(r"[^=!<>]=[^=]|[<>]{2}=[^=]", text[i - 1:i + 2]))
     return stop
 
@@ -57,15 +60,31 @@ def at_depth(piece, pattern):
         depth -= letter in CLOSING
         level.append(letter if depth == 0 else " ")
         depth += letter in OPENING
-    return depth != 0 or re.search(pattern, "".join(level)) is not None
+    return re.search(pattern, "".join(level)) is not None
+
+
+def balanced(bare, start, end):
+    """[start, end) enlarged until no bracket in it lacks its other half."""
+    depth = least = 0
+    for letter in bare[start:end]:
+        depth += (letter in OPENING) - (letter in CLOSING)
+        least = min(least, depth)
+    for _ in range(-least):
+        start = matched(bare, start - 1, -1, lambda i: False)
+    for _ in range(depth - least):
+        end = matched(bare, end, 1, lambda i: False) + 1
+    return start, end
 
 
 def whole(text, start, end):
     """(start, end, kind) of the smallest whole `expression`, `constant` or `statement` that holds [start, end)."""
     bare = without_comments(text, strings=True)
+    start, end = balanced(bare, start, end)
+    if at_depth(bare[start:end], ",") and not at_depth(bare[start:end], ";"):  # of several arguments: the call
+        start, end = matched(bare, start - 1, -1, lambda i: False), matched(bare, end, 1, lambda i: False) + 1
     piece = bare[start:end]
-    if not at_depth(piece, ASSIGNMENT.pattern + r"|[;?,]|\breturn\b|\bif\b|\bcontinue\b|\bbreak\b"):
-        stop = ends_expression(bare)
+    if not at_depth(piece, ASSIGNMENT.pattern + r"|;|\breturn\b|\bif\b|\bcontinue\b|\bbreak\b"):
+        stop = ends_expression(bare, at_depth(piece, r"\?|(?<!:):(?!:)"))
         first = matched(bare, start - 1, -1, stop) + 1
         last = matched(bare, end, 1, stop)
         first += len(re.match(r"\s*(?:(?:return|throw|else|case)\b)?\s*", bare[first:last]).group())

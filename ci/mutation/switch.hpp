@@ -1,4 +1,5 @@
-// Which fault of ci/mutants is in force, in a tree that holds all of them (ci/mutation/schema.py). Set from outside:
+// Which fault of ci/mutants is in force, in a tree that holds all of them (ci/mutation/schema.py). Set from
+// outside:
 //   GRANVOF_MUTANT=1a2b3c4d       the one fault that is in force; none without it
 //   GRANVOF_MUTANTS_REACHED=FILE  adds a line to FILE for each place that is reached
 #pragma once
@@ -15,7 +16,8 @@ struct FromEnvironment {
   std::uint32_t active = 0;
   const char* reached = nullptr;
   FromEnvironment() : reached(std::getenv("GRANVOF_MUTANTS_REACHED")) {
-    if (const char* name = std::getenv("GRANVOF_MUTANT")) active = std::strtoul(name, nullptr, 16);
+    if (const char* name = std::getenv("GRANVOF_MUTANT"))
+      active = static_cast<std::uint32_t>(std::strtoul(name, nullptr, 16));
   }
 };
 

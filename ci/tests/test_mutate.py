@@ -43,6 +43,17 @@ inline double halved(double a) {
   }
   return a < 0.0 ? -sum : sum;
 }
+inline double across(const double* from, int at) {
+  for (int i = 0; i < 0; ++i) {
+    at += i;
+  }
+  return from[1 + at] - from[0];
+}
+inline double within(double a, bool lower) {
+  double least = 0.0, most = 9.0;
+  (lower ? least : most) += 1.0;
+  return std::clamp(a, least, most);
+}
 """
 
 
@@ -103,17 +114,21 @@ FAULTS = (
     fault("sum *= 0.5", "sum *= 0.25"),         # within a loop
     fault("a < 0.0 ? -sum", "a < 0.0 ? sum"),   # a branch
     fault("b * most", "b"),                     # within the place of the first
+    fault("from[1 + at] - from[0]", "from[1] - from[0 + at]"),  # indices, whose differing piece has half a bracket at each end
+    fault("lower ? least : most", "lower ? most : least"),      # a condition, on the left of an assignment
+    fault("std::clamp(a, least, most)", "std::clamp(2.0 * a, least + 1.0, most)"),  # several arguments
 )
-VALUES = "1.0 3.0", "2.0", "-1.0"
 
 
 @pytest.fixture(scope="module")
 def sums(tmp_path_factory):
-    """A program that prints twice(1, 3), halved(2), halved(-1), with all faults in it."""
+    """A program that prints what its functions give, with all faults in it."""
     place = tmp_path_factory.mktemp("sums")
     (place / "sums.hpp").write_text(switched(*FAULTS))
     (place / "main.cpp").write_text('#include "sums.hpp"\n#include <cstdio>\n'
-                                    'int main() { std::printf("%g %g %g", twice(1.0, 3.0), halved(2.0), halved(-1.0)); }\n')
+                                    'int main() {\n  const double from[] = {1.0, 2.0, 4.0};\n'
+                                    '  std::printf("%g %g %g %g", twice(1.0, 3.0), halved(2.0), halved(-1.0), across(from, 1));\n'
+                                    '  std::printf(" %g %g", within(0.0, true), within(20.0, false));\n}\n')
     subprocess.run(["g++", "-std=c++20", "-O1", "-I", ROOT, "-I", place, place / "main.cpp", "-o", place / "sums"], check=True)
     return place / "sums"
 
@@ -123,12 +138,13 @@ def printed(sums, **environment):
 
 
 def test_without_a_fault_the_program_is_what_it_was(sums):
-    assert printed(sums) == "11 0.3125 -0.0625"
+    assert printed(sums) == "11 0.3125 -0.0625 3 1 10"
 
 
 @pytest.mark.parametrize("mutant, expected", zip(FAULTS, (
-    "-7 0.3125 -0.0625", "5 0.3125 -0.0625", "11 0.325 -0.075", "11 0.0625 -0.0625", "11 0.0390625 -0.0078125",
-    "11 0.3125 0.0625", "5 0.3125 -0.0625")), ids=lambda value: getattr(value, "name", None))
+    "-7 0.3125 -0.0625 3 1 10", "5 0.3125 -0.0625 3 1 10", "11 0.325 -0.075 3 1 10", "11 0.0625 -0.0625 3 1 10", "11 0.0390625 -0.0078125 3 1 10",
+    "11 0.3125 0.0625 3 1 10", "5 0.3125 -0.0625 3 1 10", "11 0.3125 -0.0625 0 1 10",
+    "11 0.3125 -0.0625 3 0 9", "11 0.3125 -0.0625 3 2 10")), ids=lambda value: getattr(value, "name", None))
 def test_each_fault_alone(sums, mutant, expected):
     assert printed(sums, GRANVOF_MUTANT=mutant.number) == expected
 
@@ -317,6 +333,8 @@ def toy(tmp_path):
 
 
 def mutate(root, *arguments):
+    if "--against" not in arguments:
+        arguments += ("--against", "unit", "ladder")
     return subprocess.run([MUTATE, "--root", root, *arguments], capture_output=True, text=True)
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from report.embedded import encoded
 from report.results import Damaged
 
-NAMES = ("charts", "stability", "energy", "faults")  # in the order of the page
+NAMES = ("charts", "stability", "energy", "faults", "mutate")  # in the order of the page
 
 
 @dataclass

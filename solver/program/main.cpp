@@ -1,4 +1,5 @@
-// The program granvof: run, check, restate and keys. Exit codes: 0 done, 1 the run failed, 2 bad input.
+// The program granvof: run, check, report, restate and keys. Exit codes: 0 done, 1 the run failed, 2 bad
+// input.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/program/report.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
@@ -36,6 +38,7 @@ struct Arguments {
   granvof::RunOptions run;
   granvof::UnitFactors factors;
   std::string picture;
+  std::vector<std::string> directories;
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -102,9 +105,10 @@ int keys() {
 std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
-  return fmt::format(
-      "granvof: {} (granvof --help says what is allowed)\n",
-      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what());
+  return fmt::format("granvof: {} (granvof --help says what is allowed)\n",
+                     misspelt
+                         ? fmt::format("got {}, allowed: run, check, report, restate, keys", left.front())
+                         : error.what());
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -137,6 +141,11 @@ int parse_and_run(int argc, char** argv) {
       .add_option("--picture", arguments.picture,
                   "Draw the start: tank, liquid, bed, gate, sides, grid (SVG)")
       ->type_name("FILE");
+  CLI::App& report_command =
+      *app.add_subcommand("report", "Film, plots and a page of runs: DIR/report/report.html");
+  report_command.add_option("directory", arguments.directories, "Run directories")
+      ->required()
+      ->type_name("DIR");
   CLI::App& restate_command = *app.add_subcommand(
       "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
   add_case(restate_command, arguments);
@@ -157,6 +166,7 @@ int parse_and_run(int argc, char** argv) {
   arguments.run.out = out;
   if (keys_command.parsed()) return keys();
   if (check_command.parsed()) return check(arguments);
+  if (report_command.parsed()) granvof::make_report(arguments.directories);
   if (restate_command.parsed()) return restate(arguments);
   return run(arguments);
 }

@@ -7,15 +7,18 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/output/stop_signals.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/checkpoint_state.hpp"
+#include "solver/run/closing_line.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/run/progress_line.hpp"
+#include "solver/run/run_log.hpp"
 #include "solver/run/snapshot.hpp"
 #include "solver/run/step_control.hpp"
 #include "solver/run/time_step.hpp"
@@ -95,6 +98,8 @@ class Run {
   std::string trouble_;
   bool begins_ = true;  // not resumed
   RunWriter writer_;
+  RunLog log_;
+  Scalars last_row_;  // of series.csv
   ProgressLine progress_line_;
   double started_core_ = core_seconds();
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(),
@@ -167,7 +172,8 @@ void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_n
                              monitors_.liquid_volume_error()};
       const EnergyTerms energy = energy_terms_at(earlier, now_, due.time);
       for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
-      writer_.write_series_row(due.time, row, extract_scalars(fields, scene_));
+      last_row_ = extract_scalars(fields, scene_);
+      writer_.write_series_row(due.time, row, last_row_);
     }
     if (due.fields) writer_.write_fields(fields);
   }
@@ -211,6 +217,7 @@ int Run::finish(ExitState state, const std::string& reason, LastStep last_step) 
   writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, done), done);
   if (state != ExitState::finished) spdlog::error("{}: {}; {}", scene_.name, reason, what_is_left());
   writer_.finish(done, {state, reason});
+  if (state == ExitState::finished) spdlog::info(closing_line(scene_, done, last_row_, options_.out));
   return state == ExitState::finished ? 0 : 1;
 }
 
@@ -232,6 +239,9 @@ int Run::give_up(const std::string& reason) {
 int Run::go() {
   try {
     writer_.write_progress(progress());  // run.json must not show an old end while this goes on
+    log_.open(options_.out, !begins_);
+    spdlog::info("{}: granvof {}, {} thread{}: {}", scene_.name, build_info().version, options_.threads,
+                 options_.threads == 1 ? "" : "s", options_.command);
     if (begins_) write_output(now_, due_output(scene_.times, -1.0, now_.time));
     return loop();
   } catch (const OutputError& error) {
