@@ -36,6 +36,8 @@ struct MetricEntry {
   std::string_view description;
   Needs needs;
   Measured (*function)(const Run&, const Parameters&, const FindRun&);
+  Curve (*curve)(const Run&) =
+      nullptr;  // of a metric that is judged by its distance from a record's (whole_curve.hpp)
 };
 
 std::span<const MetricEntry> metrics();

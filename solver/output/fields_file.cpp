@@ -54,12 +54,16 @@ std::vector<double> times_of(hid_t file) {
   return times;
 }
 
-// Copies one group of `source` to `target`; links to other files are followed.
+// Copies one instant of `source` to `target`; links to other files are followed. Its attributes are written
+// anew: those that refer to axes refer to places in the file.
 void copy_group(hid_t source, const std::string& name, hid_t target, const std::string& new_name) {
   const auto group = hdf5::open_group(source, name);
-  if (H5Ocopy(group, ".", target, new_name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+  const hdf5::Handle copying(H5Pcreate(H5P_OBJECT_COPY), H5Pclose);
+  if (H5Pset_copy_object(copying, H5O_COPY_WITHOUT_ATTR_FLAG) < 0 ||
+      H5Ocopy(group, ".", target, new_name.c_str(), copying, H5P_DEFAULT) < 0) {
     throw std::runtime_error("group " + name + ": " + hdf5::last_error());
   }
+  describe_instant(hdf5::open_group(target, new_name), hdf5::read_double_attribute(group, "time"));
 }
 
 // Whether "fields/NAME" is the file of an instant >= first, or a draft of one.
@@ -93,7 +97,10 @@ FieldsFile::FieldsFile(fs::path directory, const Scene& scene)
     : directory_(std::move(directory)),
       scene_name_(scene.name),
       cells_(scene.grid.cells),
-      spacing_(scene.grid.spacing) {}
+      spacing_(scene.grid.spacing) {
+  // A slab of one cell is shown as thick as it is fine; how deep the tank is, its case says.
+  if (scene.dimensions == 2 && cells_[2] == 1) spacing_[2] = spacing_[0];
+}
 
 fs::path FieldsFile::piece(std::size_t index) const {
   return directory_ / pieces_directory / (group_name(index) + ".h5");
@@ -179,7 +186,7 @@ void FieldsFile::append(const CellFields& fields) {
     if (error) throw OutputError("write", path, error.message());
     const hdf5::QuietErrors quiet;
     const auto memory = hdf5::create_in_memory();
-    write_instant(hdf5::create_group(memory, "instant"), fields);
+    write_instant(hdf5::create_group(memory, "instant"), fields, spacing_);
     return hdf5::content_of(memory);
   });
   write_file_atomically(path, content);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <hdf5_hl.h>
+
 #include "solver/output/output_error.hpp"
 
 namespace granvof::hdf5 {
@@ -28,10 +30,6 @@ Handle dataset_properties() {
   Handle properties(checked(H5Pcreate(H5P_DATASET_CREATE), "property list"), H5Pclose);
   checked(H5Pset_obj_track_times(properties, false), "property list");
   return properties;
-}
-
-Handle open_dataset(hid_t group, const std::string& name) {
-  return {checked(H5Dopen2(group, name.c_str(), H5P_DEFAULT), "dataset " + name), H5Dclose};
 }
 
 Handle open_attribute(hid_t object, const std::string& name) {
@@ -234,6 +232,18 @@ std::vector<hsize_t> shape_of(hid_t group, const std::string& name) {
       static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space), "dataspace")));
   checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "dataspace");
   return shape;
+}
+
+Handle open_dataset(hid_t group, const std::string& name) {
+  return {checked(H5Dopen2(group, name.c_str(), H5P_DEFAULT), "dataset " + name), H5Dclose};
+}
+
+void make_scale(hid_t dataset, const std::string& name) {
+  checked(H5DSset_scale(dataset, name.c_str()), "scale " + name);
+}
+
+void attach_scale(hid_t dataset, hid_t scale, unsigned dimension) {
+  checked(H5DSattach_scale(dataset, scale, dimension), "scale of a dataset");
 }
 
 }  // namespace granvof::hdf5
