@@ -4,7 +4,7 @@
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
 # OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
 # PREFIX=dir        where make install puts it (default: /usr/local)
-# SAMPLE=n          so many of the faults (make mutate)
+# SAMPLE=n          so many of the faults (make mutate)        FOR=n   seconds for each reader (make fuzz)
 # LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
@@ -25,7 +25,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build install package verify test reference plots charts stability runout nightly faults mutate bench format tidy sanitize
+.PHONY: help setup build install package verify test reference plots charts stability runout nightly faults mutate fuzz bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -87,6 +87,9 @@ faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/fa
 
 mutate: setup  ## small faults put into the code one at a time (ci/mutants): who notices each, for the report; goes on where it stopped
 	ci/mutate --out "$(OUT)" --jobs $(JOBS) $(if $(SAMPLE),--sample $(SAMPLE))
+
+fuzz: setup  ## any bytes at all into the readers of files, ten minutes each (FOR=n: n seconds)
+	ci/fuzz --out "$(OUT)" $(if $(FOR),--seconds $(FOR))
 
 bench: setup  ## performance of the parts, and of whole runs against their targets (ci/targets.toml)
 	ci/build --benchmarks release

@@ -355,7 +355,8 @@ def test_a_small_project_from_end_to_end(toy):
 def test_what_was_found_is_kept_and_not_tried_again(toy):
     mutate(toy, "--only", "one")
     assert list(verdicts(toy)) == ["one"]
-    assert "[1/2] solver/toy/toy.hpp: two" in mutate(toy).stdout  # the two that were left
+    said = mutate(toy).stdout  # the two that were left
+    assert "/2] solver/toy/toy.hpp: two" in said and "/2] solver/toy/toy.hpp: unread" in said and "toy.hpp: one" not in said
     before = (toy / "out/mutate/tree/build/count").read_text()
     ended = mutate(toy)
     assert "[1/" not in ended.stdout and (toy / "out/mutate/tree/build/count").read_text() == before  # nothing is built for it

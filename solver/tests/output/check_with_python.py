@@ -61,7 +61,7 @@ def test_each_dimension_has_its_axis(runs, name, cells, tank, more):
     with h5py.File(runs / name / "fields.h5", "r") as file:
         for group in file.values():
             for d, axis in enumerate("xyz"):
-                assert group[axis].is_scale and group[axis].attrs["units"] == b"m"
+                assert h5py.h5ds.is_scale(group[axis].id) and group[axis].attrs["units"] == b"m"
                 assert np.allclose(group[axis][...], (np.arange(cells[d]) + 0.5) * tank[d] / cells[d])
             for field in ["f_s", "alpha", "p_c", "theta", "phi", "u_s", "u_c", *more]:
                 data = group[field]
@@ -71,7 +71,8 @@ def test_each_dimension_has_its_axis(runs, name, cells, tank, more):
             assert group["p_c"].attrs["units"] == b"Pa" and group["u_s"].attrs["units"] == b"m/s"
 
 
-@pytest.mark.parametrize("name, cells, tank, more", RUNS)
+# Of a run that has finished, whose fields.h5 holds its instants itself.
+@pytest.mark.parametrize("name, cells, tank, more", RUNS[:1])
 def test_xarray_reads_an_instant_as_it_is(runs, name, cells, tank, more):
     xarray = pytest.importorskip("xarray")
     pytest.importorskip("h5netcdf")
