@@ -9,7 +9,7 @@ from pathlib import Path
 from mutation import process
 
 LADDERS = {"unit": "unit", "verification": "ladder"}  # label of a test -> whom it belongs to
-PATIENCE, SLOWER = 20.0, 10.0  # a test may take so many seconds and so many times longer than without a fault
+PATIENCE, SLOWER = 20.0, 4.0  # a test may take so many seconds and so many times longer than without a fault
 PYTHON_TESTS = "compare/tests"
 
 
