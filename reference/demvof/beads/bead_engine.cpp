@@ -15,6 +15,7 @@
 #include "liggghts/library_cfd_coupling.h"
 #include "reference/demvof/beads/bead_log.hpp"
 #include "reference/demvof/beads/input_files.hpp"
+#include "reference/demvof/beads/messages_into.hpp"
 
 namespace demvof {
 
@@ -44,12 +45,15 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   state_.velocity.resize(3 * mobile_, 0.0);
 
   // A screen of "none" makes LIGGGHTS crash. Where it ends the program, the log says why.
-  std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log",
-                                 bead_log(settings_.scratch_folder, ::getpid())};
+  const std::string log = bead_log(settings_.scratch_folder, ::getpid());
+  std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log", log};
   std::vector<char*> arguments;
   arguments.reserve(words.size());
   for (std::string& word : words) arguments.push_back(word.data());
-  lammps_open(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD, &lammps_);
+  {
+    const MessagesInto hidden(log);  // a second engine finds every style of the first: hundreds of lines
+    lammps_open(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD, &lammps_);
+  }
 
   command("atom_style granular");
   command("atom_modify map array");
@@ -75,7 +79,10 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   rolling_ = settings_.law.rolling_friction > 0.0;
   declare_materials();
   const std::string rolling = rolling_ ? " rolling_friction epsd2" : "";
-  command(fmt::format("pair_style {}{}", contact, rolling));
+  {
+    const MessagesInto hidden(log);
+    command(fmt::format("pair_style {}{}", contact, rolling));
+  }
   command("pair_coeff * *");
   declare_walls();
   if (settings_.gate) declare_gate();
