@@ -1,5 +1,6 @@
 #include "reference/demvof/beads/bead_engine.hpp"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 #include <unistd.h>
 
@@ -20,8 +22,17 @@ namespace {
 
 constexpr const char* contact = "gran model hertz tangential history";
 
-std::string three(double a, double b, double c) {
-  return fmt::format("{} {} {}", a, b, c);
+// A value a type, see input_files.hpp.
+using ByType = std::array<double, bead_types>;
+
+std::string text(const ByType& values) {
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
+ByType same(double value) {
+  ByType values{};
+  values.fill(value);
+  return values;
 }
 
 }  // namespace
@@ -105,22 +116,28 @@ void BeadEngine::command(const std::string& line) {
 
 void BeadEngine::declare_materials() {
   const ContactLaw& law = settings_.law;
-  const double bead = law.bead_friction, wall = law.wall_friction, e = law.restitution;
-  command("fix young all property/global youngsModulus peratomtype " +
-          three(law.young, law.young, law.young));
-  command("fix poisson all property/global poissonsRatio peratomtype " +
-          three(law.poisson, law.poisson, law.poisson));
-  const std::string row = three(e, e, e);
-  command(fmt::format("fix restitution all property/global coefficientRestitution peratomtypepair 3 {} {} {}",
-                      row, row, row));
-  command(fmt::format("fix friction all property/global coefficientFriction peratomtypepair 3 {} {} {}",
-                      three(bead, bead, wall), three(bead, bead, wall), three(wall, wall, wall)));
-  if (rolling_) {
-    const std::string rolling = three(law.rolling_friction, law.rolling_friction, law.rolling_friction);
-    command(
-        fmt::format("fix rolling all property/global coefficientRollingFriction peratomtypepair 3 {} {} {}",
-                    rolling, rolling, rolling));
-  }
+  const auto each = [&](const char* name, const char* property, double value) {
+    command(fmt::format("fix {} all property/global {} peratomtype {}", name, property, text(same(value))));
+  };
+  const auto pairs = [&](const char* name, const char* property, const std::array<ByType, bead_types>& rows) {
+    std::vector<std::string> lines;
+    for (const ByType& row : rows) lines.push_back(text(row));
+    command(fmt::format("fix {} all property/global {} peratomtypepair {} {}", name, property, bead_types,
+                        fmt::join(lines, " ")));
+  };
+  const auto uniform = [&](double value) {
+    std::array<ByType, bead_types> rows;
+    rows.fill(same(value));
+    return rows;
+  };
+  each("young", "youngsModulus", law.young);
+  each("poisson", "poissonsRatio", law.poisson);
+  pairs("restitution", "coefficientRestitution", uniform(law.restitution));
+  const double bead = law.bead_friction, wall = law.wall_friction, gate = law.gate_friction;
+  const ByType of_beads{bead, bead, wall, gate};
+  pairs("friction", "coefficientFriction",
+        {of_beads, of_beads, {wall, wall, wall, wall}, {gate, gate, wall, gate}});
+  if (rolling_) pairs("rolling", "coefficientRollingFriction", uniform(law.rolling_friction));
 }
 
 void BeadEngine::declare_walls() {
@@ -143,7 +160,7 @@ void BeadEngine::declare_gate() {
   const std::string file =
       fmt::format("{}/gate-{}-{}.stl", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
   write_gate(file, settings_);
-  command(fmt::format("fix gate all mesh/surface file {} type 3", file));
+  command(fmt::format("fix gate all mesh/surface file {} type 4", file));
   std::filesystem::remove(file);
   command(fmt::format("fix gatewall mobile wall/{} mesh n_meshes 1 meshes gate", contact));
   gate_present_ = true;

@@ -60,6 +60,7 @@ ContactLaw run_law(const Scene& scene) {
   law.bead_friction = r.bead_friction;
   law.rolling_friction = r.bead_rolling_friction;
   law.wall_friction = slippery_for_beads(scene) ? 0.0 : r.wall_friction;
+  law.gate_friction = slippery_for_beads(scene) && r.gate_friction == r.wall_friction ? 0.0 : r.gate_friction;
   return law;
 }
 
