@@ -48,7 +48,8 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
     : settings_(std::move(settings)),
       mobile_(mobile.count()),
       frozen_(frozen_positions.size() / 3),
-      state_(mobile) {
+      state_(mobile),
+      frozen_position_(frozen_positions) {
   std::filesystem::create_directories(settings_.scratch_folder);
   state_.velocity.resize(3 * mobile_, 0.0);
 
@@ -86,13 +87,17 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   const std::string rolling = rolling_ ? " rolling_friction epsd2" : "";
   command(fmt::format("pair_style {}{}", contact, rolling));
   command("pair_coeff * *");
+  meter_ = std::make_unique<WorkMeter>(lammps_, settings_, load_);
+  meter_->look(WorkMeter::Place::after_beads);
   declare_walls();
+  meter_->look(WorkMeter::Place::after_walls);
   if (settings_.gate) declare_gate();
 
   command(fmt::format("timestep {}", settings_.dt));
   set_gravity(settings_.gravity, settings_.inclination);
   command("fix coupling all couple/cfd couple_every 1000000 mpi");
   command("fix fluid mobile couple/cfd/force/implicit");
+  meter_->look(WorkMeter::Place::after_all);
   command("fix motion mobile nve/sphere");
   command("thermo_style custom step atoms");
   command("thermo 1000000000");
@@ -171,6 +176,8 @@ void BeadEngine::set_gravity(double gravity, double slope) {
   const double sign = gravity < 0.0 ? -1.0 : 1.0, angle = slope * std::numbers::pi / 180.0;
   command(fmt::format("fix gravity mobile gravity {} vector {:.17g} {:.17g} 0", std::abs(gravity),
                       sign * std::sin(angle), -sign * std::cos(angle)));
+  gravity_ = {gravity * std::sin(angle), -gravity * std::cos(angle), 0.0};
+  meter_->set_gravity(gravity_);
   set_up_ = false;
 }
 
@@ -191,6 +198,9 @@ void BeadEngine::raise_gate(double speed) {
   if (!gate_present_) return;
   command(fmt::format("fix gatemotion all move/mesh mesh gate linear 0. {} 0.", speed));
   gate_moving_ = true;
+  gate_speed_ = speed;
+  raised_since_ = time();
+  meter_->set_gate_speed(speed);
   set_up_ = false;
 }
 
@@ -200,10 +210,12 @@ void BeadEngine::remove_gate() {
   if (gate_moving_) command("unfix gatemotion");
   command("unfix gate");
   gate_present_ = false;
+  meter_->set_gate_speed(0.0);
   set_up_ = false;
 }
 
 void BeadEngine::set_load(const FluidLoad& load) {
+  load_ = load;
   const std::size_t n = mobile_;
   const auto send = [&](const char* name, const char* type, double** data) {
     void* address = data;
@@ -236,6 +248,24 @@ void BeadEngine::refresh_state() {
   std::copy(gathered_.begin(), gathered_.begin() + 3 * mobile_, state_.position.begin());
   lammps_gather_atoms(lammps_, v.data(), 1, 3, gathered_.data());
   std::copy(gathered_.begin(), gathered_.begin() + 3 * mobile_, state_.velocity.begin());
+}
+
+double BeadEngine::translation_energy() const {
+  double sum = 0.0;
+  for (const double v : state_.velocity) sum += v * v;
+  return 0.5 * bead_mass() * sum;
+}
+
+double BeadEngine::potential_energy() const {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < state_.position.size(); ++n) sum -= gravity_[n % 3] * state_.position[n];
+  return bead_mass() * sum;
+}
+
+ElasticEnergy BeadEngine::elastic_energy() const {
+  std::optional<double> edge;
+  if (gate_present_) edge = gate_moving_ ? gate_speed_ * (time() - raised_since_) : 0.0;
+  return demvof::elastic_energy(settings_, state_.position, frozen_position_, edge);
 }
 
 double BeadEngine::bead_volume() const {
