@@ -146,6 +146,10 @@ double bead_dt(const Scene& scene) {
   return scene.reference->dt * scene.reference->coarse_graining;
 }
 
+double solid_share(const Scene& scene, std::size_t beads) {
+  return static_cast<double>(beads) / bead_count(scene);
+}
+
 double depth_of(const Scene& scene) {
   return flat(scene) ? scene.reference->slice_depth : scene.tank[2];
 }
