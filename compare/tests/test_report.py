@@ -25,7 +25,7 @@ def test_report_writes_every_plot_as_png_and_those_of_the_whole_as_pdf(reported)
     plots = {path.stem for path in (reported / "plots").glob("*.png")}
     assert plots == {"run-out", "base-pressure", "floating-run-out", "centre-height", "floating-theory", "dam-break", "sedimentation",
                      "viscous-collapse", "snapshots-s1", "snapshots-float-full-r02"}
-    of_every_run = ("snapshots-", "energy-", "plan-")
+    of_every_run = ("snapshots-", "energy-", "ledger-", "plan-")
     assert {name for name in plots if not name.startswith(of_every_run)} == {path.stem for path in (reported / "plots").glob("*.pdf")}
     text = (reported / "report.html").read_text()
     films = list((reported / "plots").glob("*.apng"))
