@@ -72,7 +72,7 @@ void note_how_it_ended(Ending& ending, const Ended& process, const Limits& limit
     return fail(ending::cpu_limit, fmt::format("not done after {:g} core-s", limits.cpu_seconds));
   if (somebody_ended(process.code)) return fail(ending::signal, with_code());
   const auto facts = facts_of_this_run(ending.directory, earlier);
-  if (!facts || facts->exit == "running")
+  if (!facts || facts->kind == "running")
     return fail(ending::crashed, process.code == 0 ? "it ended and left no run.json" : with_code());
   if (facts->kind != ending::finished)
     return fail(facts->kind, facts->reason.empty() ? with_code() : facts->reason);

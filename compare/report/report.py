@@ -32,8 +32,9 @@ def write(loaded, options):
     directories = {"charts": out / "charts"}
     if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts"):
         directories["charts"] = options.verify / "kept/charts"
-    if not (out / "stability/stability.json").exists():
-        directories["stability"] = options.kept / "stability"
+    for name in ("stability", "mutate"):
+        if not (out / name / f"{name}.json").exists():
+            directories[name] = options.kept / name
     others = sections.read_all(out, directories)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     kept = kept_results.read(options.kept / "verify/results.json")

@@ -17,7 +17,7 @@ from granvof_files import required
 from report.embedded import encoded
 from report.results import Damaged
 
-NAMES = ("charts", "stability", "energy", "faults")  # in the order of the page
+NAMES = ("charts", "stability", "energy", "faults", "mutate")  # in the order of the page
 
 
 @dataclass

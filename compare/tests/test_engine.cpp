@@ -40,8 +40,8 @@ class RunEngine : public testing::Test {
   }
   // A run.json of the kind, by shell.
   static std::string leaves(const std::string& kind) {
-    return "mkdir -p $out; echo '{\"exit\": {\"state\": \"failed\", \"kind\": \"" + kind +
-           "\", \"reason\": \"why not\"}, \"core_seconds\": 0.5}' > $out/run.json; ";
+    return "mkdir -p \"$out\"; echo '{\"exit\": {\"state\": \"failed\", \"kind\": \"" + kind +
+           "\", \"reason\": \"why not\"}, \"core_seconds\": 0.5}' > \"$out/run.json\"; ";
   }
 
   const granvof::test::TemporaryDirectory directory_;

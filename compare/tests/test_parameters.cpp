@@ -50,7 +50,7 @@ TEST(Metrics, OnlyWhatSomebodyPaysForIsACost) {
 
 // Deep water of 2 m under air, 0.2 m long: omega^2 = g k (1 - 1/1000) / (1 + 1/1000) to 1e-10.
 TEST(Theory, PeriodOfTheFirstModeInDeepWater) {
-  Run run;
+  compare::Run run;
   run.scene.tank = {0.2, 4.0, 0.1};
   run.scene.gravity = 9.81;
   run.scene.liquid.density = 1000.0;

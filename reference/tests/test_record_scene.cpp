@@ -63,6 +63,20 @@ TEST(RecordScene, ACaseWithLiquidKeepsIt) {
   EXPECT_GT(*wet.series.column("liquid_volume").back(), 0.0);
 }
 
+// A column 7 beads high packs looser at its boundaries than asked for: it says so, and by how much.
+TEST(RecordScene, APreparationThatMissesItsPackingSaysSo) {
+  const auto warned = [](const Recorded& r) {
+    return r.facts.find("reference.packing asks for") != std::string::npos;
+  };
+  const Recorded missed = recorded({"reference.packing=0.64"});
+  EXPECT_EQ(missed.code, 0);
+  EXPECT_TRUE(warned(missed)) << missed.facts;
+  EXPECT_NE(missed.facts.find("asks for 0.64; released at 0.5"), std::string::npos) << missed.facts;
+  const Recorded suspended = recorded({"reference.packing=0.3"});  // exact by construction
+  EXPECT_EQ(suspended.code, 0);
+  EXPECT_FALSE(warned(suspended)) << suspended.facts;
+}
+
 // No step is cut for a row or a field: with more of them the rows that both have are equal to the bit.
 TEST(RecordScene, OutputDoesNotSteerTheRun) {
   // Powers of two: both have their rows at the same times to the bit.

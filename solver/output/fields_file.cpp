@@ -85,10 +85,15 @@ std::vector<double> times_of(hid_t file, const fs::path& path) {
   return times;
 }
 
+// Copies one instant to `target`. Its attributes are written anew: those that refer to axes refer to places
+// in the file.
 void copy_group(const hdf5::Handle& group, hid_t target, const std::string& name) {
-  if (H5Ocopy(group, ".", target, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+  const hdf5::Handle copying(H5Pcreate(H5P_OBJECT_COPY), H5Pclose);
+  if (H5Pset_copy_object(copying, H5O_COPY_WITHOUT_ATTR_FLAG) < 0 ||
+      H5Ocopy(group, ".", target, name.c_str(), copying, H5P_DEFAULT) < 0) {
     throw std::runtime_error("group " + name + ": " + hdf5::last_error());
   }
+  describe_instant(hdf5::open_group(target, name), hdf5::read_double_attribute(group, "time"));
 }
 
 // Whether "fields/NAME" is the file of an instant >= first, or a draft of one.
@@ -122,7 +127,10 @@ FieldsFile::FieldsFile(fs::path directory, const Scene& scene)
     : directory_(std::move(directory)),
       scene_name_(scene.name),
       cells_(scene.grid.cells),
-      spacing_(scene.grid.spacing) {}
+      spacing_(scene.grid.spacing) {
+  // A slab of one cell is shown as thick as it is fine; how deep the tank is, its case says.
+  if (scene.dimensions == 2 && cells_[2] == 1) spacing_[2] = spacing_[0];
+}
 
 fs::path FieldsFile::piece(std::size_t index) const {
   return directory_ / piece_name(index);
@@ -207,7 +215,7 @@ void FieldsFile::append(const CellFields& fields) {
     if (error) throw OutputError("write", path, error.message());
     const hdf5::QuietErrors quiet;
     const auto memory = hdf5::create_in_memory();
-    write_instant(hdf5::create_group(memory, "instant"), fields);
+    write_instant(hdf5::create_group(memory, "instant"), fields, spacing_);
     return hdf5::content_of(memory);
   });
   write_file_atomically(path, content);

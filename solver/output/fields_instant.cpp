@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +13,38 @@
 namespace granvof {
 
 namespace {
+
+// Everything that an instant holds, in the terms of netCDF, so that what reads that knows axes, units and
+// meaning.
+struct Variable {
+  const char* name;
+  const char* units;
+  const char* long_name;
+};
+
+constexpr std::array variables{Variable{"f_s", "-", "solid fraction"},
+                               Variable{"alpha", "-", "liquid share of the continuous phase"},
+                               Variable{"p_c", "Pa", "fluid pressure"},
+                               Variable{"p_s", "Pa", "solid pressure"},
+                               Variable{"theta", "m2/s2", "granular temperature"},
+                               Variable{"phi", "-", "colour of the solid"},
+                               Variable{"u_s", "m/s", "velocity of the grains"},
+                               Variable{"u_c", "m/s", "velocity of the continuous phase"}};
+// In the order of the data's dimensions; the last of vectors alone.
+constexpr std::array axes{Variable{"z", "m", "centres of the cells"},
+                          Variable{"y", "m", "centres of the cells"},
+                          Variable{"x", "m", "centres of the cells"},
+                          Variable{"component", "-", "0 along x, 1 along y, 2 along z"}};
+
+void write_axes(hid_t group, const std::array<int, 3>& cells, const Vec3& spacing) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t d = 2 - axis;
+    std::vector<double> centres(static_cast<std::size_t>(cells[d]));
+    for (std::size_t i = 0; i < centres.size(); ++i) centres[i] = (static_cast<double>(i) + 0.5) * spacing[d];
+    hdf5::write_doubles(group, axes[axis].name, centres);
+  }
+  hdf5::write_doubles(group, axes[3].name, std::array{0.0, 1.0, 2.0});
+}
 
 void write_scalar(hid_t group, const char* name, const CellFields& fields,
                   const std::vector<double>& values) {
@@ -47,8 +80,29 @@ std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
 
 }  // namespace
 
-void write_instant(hid_t group, const CellFields& fields) {
-  hdf5::write_attribute(group, "time", fields.time);
+void describe_instant(hid_t group, double time) {
+  hdf5::write_attribute(group, "time", time);
+  std::vector<hdf5::Handle> scales;
+  for (const Variable& axis : axes) {
+    if (!hdf5::exists(group, axis.name)) continue;  // of an earlier version
+    scales.push_back(hdf5::open_dataset(group, axis.name));
+    hdf5::make_scale(scales.back(), axis.name);
+    hdf5::write_attribute(scales.back(), "units", std::string(axis.units));
+    hdf5::write_attribute(scales.back(), "long_name", std::string(axis.long_name));
+  }
+  for (const Variable& variable : variables) {
+    if (!hdf5::exists(group, variable.name)) continue;
+    const auto data = hdf5::open_dataset(group, variable.name);
+    hdf5::write_attribute(data, "units", std::string(variable.units));
+    hdf5::write_attribute(data, "long_name", std::string(variable.long_name));
+    const std::size_t dimensions = hdf5::shape_of(group, variable.name).size();
+    for (std::size_t i = 0; i < scales.size() && i < dimensions; ++i)
+      hdf5::attach_scale(data, scales[i], static_cast<unsigned>(i));
+  }
+}
+
+void write_instant(hid_t group, const CellFields& fields, const Vec3& spacing) {
+  write_axes(group, fields.cells, spacing);
   write_scalar(group, "f_s", fields, fields.f_s);
   write_scalar(group, "alpha", fields, fields.alpha);
   write_scalar(group, "p_c", fields, fields.p_c);
@@ -57,6 +111,7 @@ void write_instant(hid_t group, const CellFields& fields) {
   if (!fields.p_s.empty()) write_scalar(group, "p_s", fields, fields.p_s);
   write_vector(group, "u_s", fields, fields.u_s);
   write_vector(group, "u_c", fields, fields.u_c);
+  describe_instant(group, fields.time);
 }
 
 CellFields read_instant(hid_t file, hid_t group) {

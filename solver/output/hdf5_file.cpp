@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <hdf5_hl.h>
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/output_error.hpp"
@@ -291,6 +292,18 @@ std::vector<hsize_t> shape_of(hid_t group, const std::string& name) {
       static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space), "dataspace")));
   checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "dataspace");
   return shape;
+}
+
+Handle open_dataset(hid_t group, const std::string& name) {
+  return {checked(H5Dopen2(group, name.c_str(), H5P_DEFAULT), "dataset " + name), H5Dclose};
+}
+
+void make_scale(hid_t dataset, const std::string& name) {
+  checked(H5DSset_scale(dataset, name.c_str()), "scale " + name);
+}
+
+void attach_scale(hid_t dataset, hid_t scale, unsigned dimension) {
+  checked(H5DSattach_scale(dataset, scale, dimension), "scale of a dataset");
 }
 
 }  // namespace granvof::hdf5

@@ -96,5 +96,9 @@ void write_doubles(hid_t group, const std::string& name, std::span<const double>
 // All values of a dataset of any shape, as double.
 std::vector<double> read_doubles(hid_t group, const std::string& name);
 std::vector<hsize_t> shape_of(hid_t group, const std::string& name);
+Handle open_dataset(hid_t group, const std::string& name);
+// Makes a one-dimensional dataset a dimension scale, and the scale of a dimension of another dataset.
+void make_scale(hid_t dataset, const std::string& name);
+void attach_scale(hid_t dataset, hid_t scale, unsigned dimension);
 
 }  // namespace granvof::hdf5

@@ -25,7 +25,7 @@ constexpr const char* series_name = "series.csv";
 constexpr const char* record_name = "run.json";
 
 // What a run leaves in its directory beside run.json and its fields, and drafts of a run that was killed.
-constexpr std::array owned_names = {"checkpoint.h5", series_name};
+constexpr std::array owned_names = {"checkpoint.h5", series_name, "run.log"};
 
 void remove_owned(const fs::path& directory) {
   for (const char* name : owned_names) {

@@ -1,4 +1,5 @@
-// The run directory: series.csv, fields.h5, fields.xdmf, run.json and checkpoint.h5.
+// The run directory: series.csv, fields.h5, fields.xdmf, run.json and checkpoint.h5; run.log is
+// run/run_log.hpp's.
 //
 // Nothing in the directory is touched before the first write of any kind; a run that fails while it is being
 // set up leaves an earlier run as it was. Every file on disk is complete at every moment (series.csv up to

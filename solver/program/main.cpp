@@ -1,5 +1,5 @@
-// The program granvof: run, check, restate and keys. Exit codes: 0 done, 1 the run failed or was stopped by a
-// signal, 2 bad input, 3 the run was stopped at its wall-clock limit (--stop-after).
+// The program granvof: run, check, report, restate and keys. Exit codes: 0 done, 1 the run failed or was
+// stopped by a signal, 2 bad input, 3 the run was stopped at its wall-clock limit (--stop-after).
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -19,6 +19,7 @@
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/program/report.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
@@ -40,6 +41,7 @@ struct Arguments {
   granvof::RunOptions run;
   granvof::UnitFactors factors;
   std::string picture;
+  std::vector<std::string> directories;
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -117,7 +119,8 @@ std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
   const std::string what =
-      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what();
+      misspelt ? fmt::format("got {}, allowed: run, check, report, restate, keys", left.front())
+               : error.what();
   return fmt::format("granvof: {} (granvof --help says what is allowed)\n",
                      granvof::case_file::printable(what, longest_message));
 }
@@ -156,6 +159,11 @@ int parse_and_run(int argc, char** argv) {
       .add_option("--picture", arguments.picture,
                   "Draw the start: tank, liquid, bed, gate, sides, grid (SVG)")
       ->type_name("FILE");
+  CLI::App& report_command =
+      *app.add_subcommand("report", "Film, plots and a page of runs: DIR/report/report.html");
+  report_command.add_option("directory", arguments.directories, "Run directories")
+      ->required()
+      ->type_name("DIR");
   CLI::App& restate_command = *app.add_subcommand(
       "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
   add_case(restate_command, arguments);
@@ -178,6 +186,7 @@ int parse_and_run(int argc, char** argv) {
   if (!stop_after.empty()) arguments.run.stop_after = granvof::read_duration(stop_after);
   if (keys_command.parsed()) return keys();
   if (check_command.parsed()) return check(arguments);
+  if (report_command.parsed()) granvof::make_report(arguments.directories);
   if (restate_command.parsed()) return restate(arguments);
   return run(arguments);
 }

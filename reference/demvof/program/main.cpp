@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <mpi.h>
+#include <unistd.h>
 
 #include "reference/demvof/program/exit_code.hpp"
 #include "reference/demvof/program/record_chute.hpp"
@@ -43,6 +45,7 @@ void add_places(CLI::App& command, Arguments& arguments) {
 int run(const Arguments& arguments) {
   const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
   demvof::RecordOptions options = arguments.record;
+  options.progress = options.progress || ::isatty(STDERR_FILENO) != 0;
   if (options.out.empty()) options.out = fmt::format("out/reference/{}/seed{}", scene.name, options.seed);
   if (options.scratch.empty()) options.scratch = "out/reference/scratch";
   return demvof::record_scene(scene, options);
@@ -79,7 +82,8 @@ int parse_and_run(int argc, char** argv) {
   run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
   run_command->add_flag("--force", arguments.record.force,
                         "Replace a run of another case in the run directory");
-  run_command->add_flag("--progress", arguments.record.progress, "Say how far the run is");
+  run_command->add_flag("--progress", arguments.record.progress,
+                        "Say how far the run is, where stderr is no terminal too");
 
   CLI::App* chute_command =
       app.add_subcommand("chute", "Measure the bulk friction mu(I) of a case's beads on a dry chute");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -27,6 +28,9 @@ namespace {
 
 using granvof::Scene;
 
+// Of the packing that was asked for; seeds differ by half of it.
+constexpr double packing_tolerance = 0.01;
+
 constexpr const char* nothing_to_resume = "there is no checkpoint to go on from: demvof writes none";
 
 double core_seconds() {
@@ -51,6 +55,7 @@ class Session {
   Column prepare(const std::vector<double>& floor);
   void record();
   void note_release(const CoupledRun& run);
+  void say_if_missed(double packing);
   void bring_up_to_date();
   int end(granvof::ExitState state, const std::string& reason);
 
@@ -79,6 +84,8 @@ Column Session::prepare(const std::vector<double>& floor) {
   progress_.monitors["prepared_packing"] = column.packing;
   progress_.monitors["prepared_height_m"] = column.height;
   progress_.monitors["slice_depth_m"] = depth_of(scene_);
+  // Of what a bed of exactly the packing asked for would hold.
+  progress_.monitors["prepared_solid_share"] = solid_share(scene_, column.position.size() / 3);
   progress_.monitors["preparation_core_seconds"] = core_seconds();
   return column;
 }
@@ -91,11 +98,28 @@ void Session::note_release(const CoupledRun& run) {
   const Vector inner_lower{bed.lower[0] + 3 * d, bed.lower[1] + 3 * d, 0.0};
   const Vector inner_upper{bed.upper[0] - 3 * d, bed.upper[1] - 6 * d, depth_of(scene_)};
   const bool room = inner_upper[0] > inner_lower[0] + 3 * d && inner_upper[1] > inner_lower[1] + 3 * d;
-  if (room && scene_.dimensions == 2)
+  if (room && scene_.dimensions == 2) {
     progress_.monitors["released_packing"] = packing_inside(rested.position, inner_lower, inner_upper, d);
+    say_if_missed(progress_.monitors["released_packing"]);
+  } else {
+    say_if_missed(progress_.monitors["prepared_packing"]);
+  }
   progress_.monitors["released_height_m"] = bed_top(rested, d);
   progress_.monitors["released_rms_speed_m_s"] = bead_rms_speed(rested);
   progress_.monitors["released_excess_base_pressure_Pa"] = excess_base_pressure(run, gridded_);
+}
+
+// A preparation gets near a packing, not to it: the friction that it is settled with sets it, and that of the
+// run moves it.
+void Session::say_if_missed(double packing) {
+  const double asked = scene_.reference->packing;
+  if (std::abs(packing / asked - 1.0) <= packing_tolerance) return;
+  const std::string meaning = fmt::format(
+      "reference.packing asks for {:.4g}; released at {:.4g}, with {:.4g} of the solid that it would hold",
+      asked, packing, progress_.monitors["prepared_solid_share"]);
+  progress_.warnings.push_back({"released_packing", 0.0, packing, asked, meaning});
+  line_.end();
+  fmt::print(stderr, "demvof: {}: warning: {}\n", scene_.name, meaning);
 }
 
 void Session::record() {

@@ -64,6 +64,7 @@ ContactLaw run_law(const Scene& scene) {
   law.bead_friction = r.bead_friction;
   law.rolling_friction = r.bead_rolling_friction;
   law.wall_friction = slippery_for_beads(scene) ? 0.0 : r.wall_friction;
+  law.gate_friction = slippery_for_beads(scene) && r.gate_friction == r.wall_friction ? 0.0 : r.gate_friction;
   return law;
 }
 
@@ -147,6 +148,10 @@ double bead_diameter(const Scene& scene) {
 
 double bead_dt(const Scene& scene) {
   return scene.reference->dt * scene.reference->coarse_graining;
+}
+
+double solid_share(const Scene& scene, std::size_t beads) {
+  return static_cast<double>(beads) / bead_count(scene);
 }
 
 double depth_of(const Scene& scene) {
