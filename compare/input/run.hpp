@@ -22,6 +22,7 @@ namespace granvof::compare {
 struct RunFacts {
   std::string scene, version, commit, case_hash, resolved_case, host, date;
   std::string exit, reason;               // "finished", "failed", ... and why
+  std::string kind;                       // exit.kind; of earlier versions, what follows from the state
   std::map<std::string, double> numbers;  // core_seconds, cells, steps, ... and the program's monitors
   std::optional<Grid3> grid;
   std::optional<StatedFiles> files;  // nothing: made by an earlier version

@@ -47,7 +47,8 @@ struct ObstacleInput {
 struct ReferenceInput {
   ReferenceSettings settings;
   std::optional<ReferenceRelease> release;
-  std::optional<double> slice_depth, hold, packing, bead_friction, bead_restitution, wall_friction;
+  std::optional<double> slice_depth, hold, packing, bead_friction, bead_restitution, wall_friction,
+      gate_friction;  // gate_friction stays empty where it is that of the walls
 };
 
 struct TimesInput {

@@ -204,6 +204,9 @@ std::vector<Key> reference_keys() {
       otherwise(
           key("reference.wall_friction", "-", not_negative, MEMBER(reference.wall_friction), "Bead on wall."),
           "reference.bead_friction"),
+      otherwise(key("reference.gate_friction", "-", not_negative, MEMBER(reference.gate_friction),
+                    "Bead on the gate's plate, closed and while it rises; needs [gate]."),
+                "reference.wall_friction"),
       otherwise(key("reference.packing", "-", part, MEMBER(reference.packing), "Solid fraction to prepare."),
                 "bed.solid_fraction"),
       key("reference.preparation_friction", "-", not_negative,

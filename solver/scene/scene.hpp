@@ -246,6 +246,7 @@ struct ReferenceSettings {
   double bead_rolling_friction = 0.0;  // [-], during the run
   double bead_restitution = 0.0;       // [-]; the case's default: solid.restitution
   double wall_friction = 0.0;          // bead on wall [-]; the case's default: bead_friction
+  double gate_friction = 0.0;          // bead on the gate's plate [-]; the case's default: wall_friction
   double packing = 0.0;               // solid fraction to prepare [-]; the case's default: bed.solid_fraction
   double preparation_friction = 1.0;  // bead on bead while the column settles: sets the packing [-]
   double preparation_rolling_friction = 0.2;  // [-]

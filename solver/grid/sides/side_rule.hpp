@@ -35,6 +35,9 @@ struct SideRule {
 
   // What is beyond; none: as inside.
   std::optional<double> solid_fraction, liquid_share;
+  // alpha of what flows back where two fluids lie beyond, by the place on the side [m] and the height of a
+  // cell [m]; none: as inside. What leaves keeps the surface it has inside.
+  std::function<double(const Vec3& place, double cell)> liquid_that_flows_back;
 
   Tangent fluid, grains;
   // Tangential stress of the contacts over P_s^E, at most: infinite where grains stick, 0 where they slip.

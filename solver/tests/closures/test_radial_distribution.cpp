@@ -17,6 +17,11 @@ TEST(RadialDistribution, Values) {
   EXPECT_NEAR(radial_distribution(0.57, f_max), 0.750625 * 441.0 / 4.0, 1e-10);  // 1 - 0.57/0.63 = 2/21
 }
 
+// Denser than 0.98 f_s,max the gap is taken as 0.02.
+TEST(RadialDistribution, ValueAtTheCap) {
+  EXPECT_NEAR(radial_distribution(f_max, f_max), (1.0 - 0.4375 * f_max) / 4e-4, 1e-9);
+}
+
 TEST(RadialDistribution, DiluteSlopeIsNearTheSecondVirialCoefficientOfHardSpheres) {
   EXPECT_NEAR(radial_distribution_slope(0.0, f_max), 2.5, 0.25);  // exact: 5/2; (19) gives 2.74
 }

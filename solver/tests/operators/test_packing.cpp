@@ -1,4 +1,6 @@
 // The packing field under shear.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "solver/closures/shear_dilatancy.hpp"
@@ -38,6 +40,12 @@ TEST(Packing, SimpleShearFollowsTheLaw) {
 TEST(Packing, PureShearIsShear) {
   EXPECT_NEAR(after(0.6, 0.61, 0.5 * rate, 0.0, -0.5 * rate),
               closures::sheared_packing(0.61, rate * dt, Contact{}), 1e-12);
+}
+
+// Of a uniform stretch k along x and y the deviator's square is 2 k^2 - (2 k)^2 / 3.
+TEST(Packing, StretchShearsByItsDeviator) {
+  EXPECT_NEAR(after(0.6, 0.61, rate, 0.0, rate),
+              closures::sheared_packing(0.61, rate * dt * std::sqrt(4.0 / 3.0), Contact{}), 1e-12);
 }
 
 TEST(Packing, RestLeavesItAlone) {
