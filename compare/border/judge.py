@@ -8,6 +8,8 @@ from pathlib import Path
 
 from engine.client import BAD_INPUT, CPU_LIMIT, FINISHED, SIGNAL, order
 
+from granvof_files import required
+
 # Classes of an outcome, from good to bad. The last is the one that must not exist: wrong, and no monitor says so.
 HOLDS, COLLAPSE, BLOW_UP, DETECTED, UNDETECTED = (
     "holds", "step collapse", "blow-up", "wrong answer, detected", "wrong answer, undetected")
@@ -84,7 +86,7 @@ class Runner:
 
 def series(run, column):
     """(times, values) of a column of series.csv; undefined values left out."""
-    with open(run / "series.csv", newline="") as file:
+    with open(required(run / "series.csv"), newline="") as file:
         rows = list(csv.reader(file))
     names = [name.split(" [")[0] for name in rows[0]]
     at = names.index(column)

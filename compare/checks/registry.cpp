@@ -32,16 +32,13 @@ namespace {
 
 // --- collapse ------------------------------------------------------------------------------------------
 
-Measured run_out_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run_out_curve(run), *p.at), "no front at that T");
+template <Curve (*curve)(const Run&)>
+Measured value_of(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(curve(run), *p.at), "no value at that time");
 }
 
-Measured run_out_dense_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run_out_dense_curve(run), *p.at), "no front at that T");
-}
-
-Measured run_out_quantile_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run_out_quantile_curve(run), *p.at), "no front at that T");
+Measured not_alone(const Run&, const Parameters&, const FindRun&) {
+  return {std::nullopt, "undefined: a whole curve is judged by a record only"};
 }
 
 Measured run_out_apart(const Run& run, const Parameters& p, const FindRun& find) {
@@ -76,10 +73,6 @@ Measured toe_drift(const Run& run, const Parameters& p, const FindRun&) {
   const auto move = largest_move(run.curve("front_quantile"), *p.window);
   if (!move) return {std::nullopt, "undefined: no front at the ends of the window"};
   return {*move / column_of(run).height, ""};
-}
-
-Measured base_pressure_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(excess_base_pressure(run), *p.at), "no base pressure at that time");
 }
 
 Measured base_pressure_peak(const Run& run, const Parameters& p, const FindRun&) {
@@ -228,12 +221,18 @@ constexpr Needs window_only{.window = true};
 constexpr Needs at_only{.at = true};
 
 constexpr std::array table{
-    MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at, l by f_s >= 0.30", at_only, run_out_at},
-    MetricEntry{"run_out_dense", "-", "the same by the paper's own front, f_s >= 0.95 f_s,min, at T = at",
-                at_only, run_out_dense_at},
-    MetricEntry{"run_out_quantile", "-",
-                "the same of the place that 99.5 % of the grains have not passed, at T = at", at_only,
-                run_out_quantile_at},
+    MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at, l by f_s >= 0.30", at_only,
+                value_of<run_out_curve>},
+    MetricEntry{"run_out_dense", "-", "the same by the paper's own front, f_s >= 0.95 f_s,min", at_only,
+                value_of<run_out_dense_curve>},
+    MetricEntry{"run_out_quantile", "-", "the same of the place that 99.5 % of the grains have not passed",
+                at_only, value_of<run_out_quantile_curve>},
+    MetricEntry{"run_out_curve", "-", "rms over T of run_out's distance from the record's", window_only,
+                not_alone, run_out_curve},
+    MetricEntry{"run_out_dense_curve", "-", "the same of run_out_dense", window_only, not_alone,
+                run_out_dense_curve},
+    MetricEntry{"run_out_quantile_curve", "-", "the same of run_out_quantile", window_only, not_alone,
+                run_out_quantile_curve},
     MetricEntry{"run_out_distance", "-", "rms over T of the difference of the run-out curves of two runs",
                 Needs{.window = true, .against = true}, run_out_apart},
     MetricEntry{"run_out_exponent", "-",
@@ -249,7 +248,9 @@ constexpr std::array table{
                 "largest move over h0, in the window, of the place that 99.5 % of the grains have not passed",
                 window_only, toe_drift},
     MetricEntry{"base_pressure", "Pa", "excess pore pressure at the base at t = at", at_only,
-                base_pressure_at},
+                value_of<excess_base_pressure>},
+    MetricEntry{"base_pressure_curve", "Pa", "rms over t of base_pressure's distance from the record's",
+                window_only, not_alone, excess_base_pressure},
     MetricEntry{"base_pressure_peak", "Pa",
                 "excess pore pressure at the base, the value of largest magnitude", window_only,
                 base_pressure_peak},

@@ -106,6 +106,8 @@ Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
     reference.source = entry.text("source");
   else if (reference.source.empty() && !own_record)
     entry.fail("", "the key 'source' is missing: where does the value come from?");
+  if (metric.curve && (reference.kind != ReferenceKind::dem || reference.value || reference.formula))
+    entry.fail("kind", fmt::format("{} is judged by a record alone: kind DEM, without value", metric.name));
   if (entry.has("band")) reference.band = entry.non_negative("band");
   return reference;
 }

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "ci"))
+sys.path[:0] = [str(ROOT / "ci"), str(ROOT / "solver/python")]
 
+from granvof_files import required  # noqa: E402
 from night.together import ends_with_parent  # noqa: E402
 
 FINISHED, BAD_INPUT, SIGNAL, CPU_LIMIT, TIME_LIMIT = "finished", "bad input", "signal", "CPU limit", "time limit"
@@ -44,7 +45,7 @@ class Ending:
 
     def record(self):
         """run.json; the run must have written one."""
-        return json.loads((Path(self.directory) / "run.json").read_text(encoding="utf-8"))
+        return json.loads(required(Path(self.directory) / "run.json").read_text(encoding="utf-8"))
 
 
 class Engine:

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/own_process.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -32,6 +33,7 @@ double seconds(const timeval& t) {
 }
 
 pid_t start(const std::vector<char*>& arguments, const std::filesystem::path& log, double cpu_seconds) {
+  expect_to_be_told_of_ends();
   int failure[2];  // errno of a start that failed; closed by one that succeeds
   if (pipe2(failure, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
   const pid_t parent = getpid();

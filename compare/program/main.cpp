@@ -18,15 +18,19 @@
 #include "compare/program/run_command.hpp"
 #include "compare/program/study_commands.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace {
 
 using namespace granvof;
 using namespace granvof::compare;
+
+constexpr std::size_t longest_message = 1500;  // bytes; it holds the name of a directory
 
 struct Options {
   Paths paths{"out/runs", "cases", "reference/results"};
@@ -133,9 +137,15 @@ void add_common(CLI::App& command, Options& options) {
       ->transform(CLI::CheckedTransformer(frequencies));
 }
 
+std::string failure_text(const CLI::App*, const CLI::Error& error) {
+  return fmt::format("granvof-compare: {} (granvof-compare --help says what is allowed)\n",
+                     case_file::printable(error.what(), longest_message));
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Judges runs by the table of checks, and studies what a scene needs"};
   app.require_subcommand(1);
+  app.failure_message(failure_text);
   Options options;
 
   CLI::App* check =
@@ -188,6 +198,7 @@ int parse_and_run(int argc, char** argv) {
   RunCommand engine(app);
   StudyCommands study(app);
 
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -203,12 +214,15 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams_taken();
   try {
     const int code = parse_and_run(argc, argv);
     require_stdout_written();
     return code;
-  } catch (const std::exception& error) {
+  } catch (const CaseError& error) {  // a line for each fault, made printable where it was found
     fmt::print(stderr, "granvof-compare: {}\n", error.what());
-    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "granvof-compare: {}\n", case_file::printable(error.what(), longest_message));
   }
+  return 2;
 }

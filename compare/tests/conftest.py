@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 COMPARE = ROOT / "build/release/compare/granvof-compare"  # holds the run engine
-sys.path.insert(0, str(ROOT / "compare"))
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 
 def row_of(**changed):

@@ -85,6 +85,11 @@ ordered_json host_json() {
           {"build_type", build.build_type}};
 }
 
+// Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
+std::string text_of(const ordered_json& json) {
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
@@ -143,8 +148,20 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
                   {"resume_from", or_null(files.checkpoint)}};
   json["host"] = host_json();
   json["resolved_case"] = scene.resolved;
-  // Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
-  return sealed(json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  return sealed(text_of(json));
+}
+
+std::optional<std::string> ended_record_text(const std::string& run_json, const RunExit& exit) {
+  auto json = ordered_json::parse(run_json, nullptr, false);
+  if (seal_of(run_json) != Seal::whole || !json.is_object() || !json.contains("exit")) return std::nullopt;
+  ordered_json& end = json["exit"];
+  if (end.value("state", "") != exit_state_name(ExitState::running)) return std::nullopt;
+  end["state"] = exit_state_name(exit.state);
+  end["kind"] = kind_of(exit);
+  end["reason"] = exit.reason;
+  end["date"] = iso_date_now();
+  json.erase("sha256");
+  return sealed(text_of(json));
 }
 
 std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json) {

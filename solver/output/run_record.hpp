@@ -98,6 +98,10 @@ struct FilesWritten {
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
                             const FilesWritten& files, const RunExit& exit);
 
+// A run.json that says "running" with another end: the program that wrote it was ended before it could write
+// its own. Nothing where it states an end already, or is no whole run.json.
+std::optional<std::string> ended_record_text(const std::string& run_json, const RunExit& exit);
+
 // What resuming and overwriting need of an existing run.json; nullopt if the file is not a granvof run.json.
 // Throws OutputError where something in it was changed since it was written.
 struct ExistingRun {

@@ -1,8 +1,8 @@
 #include "solver/run/energy_budget.hpp"
 
+#include "solver/closures/collisions.hpp"
 #include "solver/closures/contact_pressure.hpp"
 #include "solver/closures/kinetic_theory.hpp"
-#include "solver/closures/radial_distribution.hpp"
 #include "solver/grid/for_each_row.hpp"
 #include "solver/scene/gravity.hpp"
 
@@ -257,6 +257,7 @@ EnergyBudget::PressureWork EnergyBudget::pressure_work(double dt, const State& n
   const double *e = trace.rheology.restitution.data(), *div = trace.strain.divergence.data();
   const double rho_s = scene_.solid.density;
   const Contact& contact = scene_.contact;
+  const closures::Collisions collisions(scene_);
   const auto sum = [&](auto&& term) {
     return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), term);
   };
@@ -264,9 +265,8 @@ EnergyBudget::PressureWork EnergyBudget::pressure_work(double dt, const State& n
             return f[c] > packing[c] ? closures::elastic_pressure(f[c], contact, packing[c]).value * div[c]
                                      : 0.0;
           }),
-          sum([=, &contact](std::ptrdiff_t c) {
-            const double g0 = closures::radial_distribution(f[c], contact.solid_fraction_max);
-            return closures::kinetic_pressure(f[c], theta[c], e[c], g0, rho_s) * div[c];
+          sum([=, &collisions](std::ptrdiff_t c) {
+            return closures::kinetic_pressure(f[c], theta[c], e[c], collisions.g0(f[c]), rho_s) * div[c];
           })};
 }
 

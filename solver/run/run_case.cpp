@@ -8,13 +8,16 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/output/stop_signals.hpp"
 #include "solver/run/alarms.hpp"
+#include "solver/run/closing_line.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/progress_line.hpp"
+#include "solver/run/run_log.hpp"
 #include "solver/run/snapshot.hpp"
 #include "solver/run/time_loop.hpp"
 #include "solver/scene/duration.hpp"
@@ -87,6 +90,8 @@ class Run {
   Alarms alarms_;
   bool begins_ = true;  // not resumed
   RunWriter writer_;
+  RunLog log_;
+  Scalars last_row_;  // of series.csv
   ProgressLine progress_line_;
   double started_core_ = core_seconds();
   Clock::time_point started_ = Clock::now(), last_checkpoint_ = started_;  // of the steps
@@ -122,7 +127,8 @@ void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_n
                              loop_.monitors().liquid_volume_error()};
       const EnergyTerms energy = energy_terms_at(earlier, loop_.now(), due.time);
       for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
-      writer_.write_series_row(due.time, row, extract_scalars(fields, scene_));
+      last_row_ = extract_scalars(fields, scene_);
+      writer_.write_series_row(due.time, row, last_row_);
     }
     if (due.fields) writer_.write_fields(fields);
   }
@@ -164,6 +170,7 @@ int Run::finish(const Ending& ending) {
   const bool finished = exit.state == ExitState::finished;
   if (!finished) spdlog::error("{}: {}; {}", scene_.name, exit.reason, what_is_left());
   writer_.finish(done, exit);
+  if (finished) spdlog::info(closing_line(scene_, done, last_row_, options_.out));
   if (exit.kind == ExitKind::wall_clock_limit) return exit_code_at_wall_clock_limit;
   return finished ? 0 : 1;
 }
@@ -186,6 +193,9 @@ int Run::give_up(ExitKind kind, const std::string& reason) {
 int Run::go() {
   try {
     writer_.write_progress(progress());  // run.json must not show an old end while this goes on
+    log_.open(options_.out, !begins_);
+    spdlog::info("{}: granvof {}, {} thread{}: {}", scene_.name, build_info().version, options_.threads,
+                 options_.threads == 1 ? "" : "s", options_.command);
     if (begins_) write_output(loop_.now(), due_output(scene_.times, -1.0, loop_.now().time));
     return steps();
   } catch (const OutputError& error) {
