@@ -7,10 +7,10 @@ install(TARGETS granvof_program granvof-compare RUNTIME DESTINATION ${CMAKE_INST
 install(FILES solver/python/granvof.py solver/python/granvof_files.py DESTINATION lib/python3/dist-packages)
 install(DIRECTORY cases DESTINATION ${share})
 install(FILES compare/checks.toml compare/study.toml DESTINATION ${share}/compare)
-# What `granvof report` hands over to; it looks for the module beside itself.
+# What `granvof report` hands over to; it looks for the modules beside itself.
 install(PROGRAMS compare/show DESTINATION ${share}/compare)
 install(DIRECTORY compare/report DESTINATION ${share}/compare PATTERN __pycache__ EXCLUDE)
-install(FILES solver/python/granvof.py DESTINATION ${share}/solver/python)
+install(DIRECTORY solver/python DESTINATION ${share}/solver PATTERN __pycache__ EXCLUDE)
 install(FILES compare/kept/verify/results.json DESTINATION ${share}/compare/kept/verify)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -18,10 +18,10 @@
 #include "compare/program/run_command.hpp"
 #include "compare/program/study_commands.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/output/standard_streams.hpp"
-#include "solver/program/empty_values.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 

@@ -71,7 +71,7 @@ TEST(RecordScene, APreparationThatMissesItsPackingSaysSo) {
   const Recorded missed = recorded({"reference.packing=0.64"});
   EXPECT_EQ(missed.code, 0);
   EXPECT_TRUE(warned(missed)) << missed.facts;
-  EXPECT_NE(missed.facts.find("asks for 0.64; released at 0.5"), std::string::npos) << missed.facts;
+  EXPECT_NE(missed.facts.find("asks for 0.64; released at 0.4"), std::string::npos) << missed.facts;
   const Recorded suspended = recorded({"reference.packing=0.3"});  // exact by construction
   EXPECT_EQ(suspended.code, 0);
   EXPECT_FALSE(warned(suspended)) << suspended.facts;

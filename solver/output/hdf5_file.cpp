@@ -43,17 +43,6 @@ Handle inside_this_file(hid_t access_class) {
   return access;
 }
 
-// Values that lie in another file are refused: see the header.
-Handle open_dataset(hid_t group, const std::string& name) {
-  Handle dataset(
-      checked(H5Dopen2(group, name.c_str(), inside_this_file(H5P_DATASET_ACCESS)), "dataset " + name),
-      H5Dclose);
-  const Handle made(checked(H5Dget_create_plist(dataset), "dataset " + name), H5Pclose);
-  const bool elsewhere = H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) != 0;
-  if (elsewhere) throw std::runtime_error("dataset " + name + ": its values lie in another file");
-  return dataset;
-}
-
 // Throws unless an attribute holds one value: HDF5 writes as many as there are.
 void require_one(const Handle& attribute, const std::string& name) {
   const Handle space(checked(H5Aget_space(attribute), "attribute " + name), H5Sclose);
@@ -294,8 +283,15 @@ std::vector<hsize_t> shape_of(hid_t group, const std::string& name) {
   return shape;
 }
 
+// Values that lie in another file are refused: see the header.
 Handle open_dataset(hid_t group, const std::string& name) {
-  return {checked(H5Dopen2(group, name.c_str(), H5P_DEFAULT), "dataset " + name), H5Dclose};
+  Handle dataset(
+      checked(H5Dopen2(group, name.c_str(), inside_this_file(H5P_DATASET_ACCESS)), "dataset " + name),
+      H5Dclose);
+  const Handle made(checked(H5Dget_create_plist(dataset), "dataset " + name), H5Pclose);
+  const bool elsewhere = H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) != 0;
+  if (elsewhere) throw std::runtime_error("dataset " + name + ": its values lie in another file");
+  return dataset;
 }
 
 void make_scale(hid_t dataset, const std::string& name) {

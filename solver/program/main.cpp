@@ -15,10 +15,10 @@
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/build_info.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
-#include "solver/program/empty_values.hpp"
 #include "solver/program/report.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"

@@ -12,8 +12,8 @@
 #include "reference/demvof/program/exit_code.hpp"
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/standard_streams.hpp"
-#include "solver/program/empty_values.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 
