@@ -73,7 +73,7 @@ TEST(Rheology, RestitutionIsThatOfTheCellsFluid) {
   s.each_cell([&](int, int j, int, std::ptrdiff_t c) { alpha[c] = j < rows / 2 ? 1.0 : 0.0; });
   Rheology rheology(s.grid);
   rheology.update(s.grid, s.scene, s.boundary, Field(s.grid, 0.3), Field(s.grid, theta), alpha, Field(s.grid),
-                  Field(s.grid, packed));
+                  Field(s.grid, packed), StrainRate(s.grid));
   const auto expected = [&](const Fluid& fluid) {
     return closures::effective_restitution(s.scene.solid.restitution, theta, 2500.0, s.scene.solid.diameter,
                                            fluid.viscosity);
@@ -88,7 +88,7 @@ TEST(Rheology, PressureBeyondAWallIsThatInside) {
   const Tank s(box_scene(2, {4, rows, 1}, {0.04, 0.08, 1.0}));
   Rheology rheology(s.grid);
   rheology.update(s.grid, s.scene, s.boundary, Field(s.grid, 0.6), Field(s.grid), Field(s.grid, 1.0),
-                  Field(s.grid), Field(s.grid, packed));
+                  Field(s.grid), Field(s.grid, packed), StrainRate(s.grid));
   const double inside = rheology.enduring_pressure[s.grid.cells.index(0, 0, 0)];
   EXPECT_GT(inside, 0.0);
   EXPECT_EQ(rheology.enduring_pressure[s.grid.cells.index(-1, 0, 0)], inside);
