@@ -47,10 +47,6 @@ std::string stop_reason() {
   return std::string("stopped by a signal (") + found->name + ")";
 }
 
-bool stopped_at_cpu_limit() {
-  return stop_requested == SIGXCPU;
-}
-
 void throw_if_stopped() {
   if (const std::string reason = stop_reason(); !reason.empty()) throw StopRequested(reason);
 }

@@ -18,9 +18,6 @@ int stop_signal();
 // "stopped by a signal (SIGTERM)" where one has come since; empty where none has.
 std::string stop_reason();
 
-// Whether that signal was XCPU: the limit of the CPU time.
-bool stopped_at_cpu_limit();
-
 // Thrown out of long work that has no steps of its own to end at.
 class StopRequested : public std::runtime_error {
  public:

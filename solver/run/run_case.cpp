@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <ctime>
 
 #include <omp.h>
@@ -254,7 +255,7 @@ std::optional<TimeLoop::Ending> Run::show_progress() {
 std::optional<TimeLoop::Ending> Run::asked_to_stop() const {
   if (const std::string reason = stop_reason(); !reason.empty())
     return Ending{
-        {ExitState::stopped, reason, stopped_at_cpu_limit() ? ExitKind::cpu_limit : ExitKind::signal}};
+        {ExitState::stopped, reason, stop_signal() == SIGXCPU ? ExitKind::cpu_limit : ExitKind::signal}};
   if (options_.stop_after && seconds_since(launched_) >= *options_.stop_after)
     return Ending{{ExitState::stopped,
                    fmt::format("stopped after {} (--stop-after)", duration_text(*options_.stop_after)),

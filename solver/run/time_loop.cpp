@@ -35,12 +35,11 @@ std::optional<RunExit> TimeLoop::advance(double longest, const BodyAcceleration*
   double dt = std::min(control_.next(now_), longest);
   for (;;) {
     last_ = step_.advance(now_, dt, next_, extra);
-    ExitKind kind = ExitKind::step_collapse;
     if (last_.accepted) {
       const std::string field = monitors_.not_finite(next_);
       if (field.empty()) break;
       last_.refused_because = "the " + field + " is not finite";
-      kind = ExitKind::not_finite;
+      last_.not_finite = true;
     }
     ++counters_.refused_steps;
     spdlog::debug("t = {:.6g} s: step of {:.3g} s refused: {}", now_.time, dt, last_.refused_because);
@@ -48,7 +47,7 @@ std::optional<RunExit> TimeLoop::advance(double longest, const BodyAcceleration*
     if (dt < scene_.numerics.dt_min)
       return RunExit{ExitState::failed,
                      fmt::format("step collapse at t = {:.6g} s: {}", now_.time, last_.refused_because),
-                     kind};
+                     last_.not_finite ? ExitKind::not_finite : ExitKind::step_collapse};
   }
   std::swap(now_, next_);
   control_.accepted(dt);

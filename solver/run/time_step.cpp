@@ -70,6 +70,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   if (extra != nullptr) add_to_predictor(*extra, dt);
   if (!std::isfinite(kinematic_viscosity_)) {
     report.refused_because = "the viscosity of the fluid is not finite";
+    report.not_finite = true;
     return report;
   }
   cost_.time("friction", [&] { apply_friction(now, dt, next, report); });
@@ -88,6 +89,8 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
          rheology_.viscous_stress.empty() ? nullptr : &rheology_.viscous_stress},
         inertia_, drag_.beta(), aperture_, now.u_s, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
+  report.not_finite = !std::isfinite(report.friction.final) || !std::isfinite(report.pressure.mismatch) ||
+                      !std::isfinite(report.pressure.divergence);
   report.refused_because = reason_to_refuse(now, dt, report);
   if (!report.refused_because.empty()) return report;
 
@@ -105,6 +108,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
       max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return f[c]; });
   if (!(densest <= largest_solid_fraction)) {
     report.refused_because = fmt::format("solid fraction {:.3f}", densest);
+    report.not_finite = !std::isfinite(densest);
     return report;
   }
   const SideLiquid* passed = nullptr;

@@ -23,6 +23,7 @@ namespace granvof {
 struct StepReport {
   bool accepted = false;
   std::string refused_because;  // empty if accepted
+  bool not_finite = false;      // and what it was refused for is that something was not finite
   PressureReport pressure;
   linear::Report friction;
   double liquid_left = 0.0, solid_left = 0.0;  // volumes that left through sides, net [m3]
