@@ -56,22 +56,18 @@ def state(entry):
     return "survived" if survived(entry) else "not yet tried against all"
 
 
-def counted(entries):
-    """(noticed, of how many that could be noticed and were tried to an end)."""
-    states = [state(entry) for entry in entries]
-    return states.count("noticed"), states.count("noticed") + states.count("survived")
-
-
 def section(mutants, results, commit):
     """`mutants`: the list as it is now; results of faults that are no longer in it are left out."""
     entries = [{**results[mutant.number], "why": mutant.why} for mutant in mutants if mutant.number in results]
     by_folder = {}
     for entry in entries:
         by_folder.setdefault("/".join(entry["file"].split("/")[:2]), []).append(entry)
-    done, of = counted(entries)
-    text = [f"{len(mutants)} small faults (ci/mutants) were put into the code one at a time; {len(entries)} of them have been tried. "
-            f"Of {of} that were tried to an end, {done} were noticed"
-            + (f" ({100 * done / of:.1f} %)." if of else "."),
+    states = [state(entry) for entry in entries]
+    done, nobody, unseen = (states.count(kind) for kind in ("noticed", "survived", "cannot be noticed"))
+    of = len(entries) - unseen
+    text = [f"{len(mutants)} small faults (ci/mutants) are put into the code one at a time; {len(entries)} of them have been tried: "
+            f"{done} were noticed" + (f" ({100 * done / of:.1f} %)" if of else "")
+            + f", {nobody} by nobody, {of - done - nobody} are not yet tried against all, {unseen} cannot be noticed.",
             "Each is tried against the unit tests, what survives these against the verification ladder; apart from that, "
             f"a share against the rows of make verify alone, on the runs that cost little: {share(entries, 'rows')} noticed. "
             "Where a fault was noticed, those that come after it in the order were not asked."]

@@ -283,13 +283,14 @@ def entry(name, **found):
                        for by, verdict in found.items()}}
 
 
-def test_the_score_counts_what_was_tried_to_an_end():
+def test_the_score_counts_what_was_tried():
     known = [entry("seen", unit="noticed", rows="survived"), entry("late", unit="survived", ladder="noticed"),
              entry("missed", unit="survived", ladder="not reached"), entry("open", unit="survived"), entry("untried")]
     mutants = [mutant for mutant, _ in known]
     results = {found["number"]: found for _, found in known[:4]}
     shown = told.section(mutants, results, "c")
-    assert "5 small faults" in shown["text"][0] and "4 of them have been tried. Of 3 that were tried to an end, 2" in shown["text"][0]
+    assert "5 small faults" in shown["text"][0]
+    assert "4 of them have been tried: 2 were noticed (50.0 %), 1 by nobody, 1 are not yet tried against all" in shown["text"][0]
     assert shown["tables"][0]["rows"][0] == ["solver/run", 4, "1 of 4", "1 of 2", "0 of 1", 2, 1, 0]
     assert [row[1] for row in shown["tables"][1]["rows"]] == ["missed", "open"]
     assert [row[3:] for row in shown["tables"][2]["rows"]] == [["T.t", "–", "survived"], ["survived", "T.t", "–"]]
@@ -299,7 +300,7 @@ def test_a_reason_takes_a_fault_out_of_the_score():
     mutant, found = entry("equal", unit="survived", ladder="survived")
     excused = listed.Mutant(mutant.file, mutant.name, mutant.was, mutant.now, why="the same in other words")
     shown = told.section([excused], {excused.number: found}, "c")
-    assert "Of 0 that were tried" in shown["text"][0]
+    assert "1 of them have been tried: 0 were noticed, 0 by nobody, 0 are not yet tried against all, 1 cannot" in shown["text"][0]
     assert shown["tables"][1]["rows"][0][3] == "the same in other words"
 
 

@@ -322,7 +322,7 @@ constexpr std::array table{
                 "energy lost to numerics by the end over the energy turned over; negative: made", none,
                 energy_numerical},
     MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
-    MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds, true},
+    MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds, nullptr, true},
 };
 
 }  // namespace

@@ -29,9 +29,9 @@ struct MetricEntry {
   std::string_view description;
   Needs needs;
   Measured (*function)(const Run&, const Parameters&, const FindRun&);
-  bool of_cost = false;  // a run that it is measured of must go alone
   Curve (*curve)(const Run&) =
-      nullptr;  // of a metric that is judged by its distance from a record's (whole_curve.hpp)
+      nullptr;           // of a metric that is judged by its distance from a record's (whole_curve.hpp)
+  bool of_cost = false;  // a run that it is measured of must go alone
 };
 
 std::span<const MetricEntry> metrics();

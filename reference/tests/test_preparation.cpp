@@ -46,7 +46,7 @@ TEST(Engine, TheSecondOneSaysNothing) {
   settings.diameter = d;
   settings.density = 2500.0;
   settings.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
-  settings.upper = {0.01, 0.01, 0.01};
+  settings.tank = {0.01, 0.01, 0.01};
   demvof::BeadState one;
   one.position = {0.005, 0.005, 0.005};
   ::testing::internal::CaptureStderr();

@@ -175,10 +175,8 @@ FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, std
       for (std::size_t index = 0; index < times.size(); ++index) {
         const auto instant = open_instant(file, path, index);
         const auto target = result.piece(index);
-        if (!fs::exists(target)) {  // fields.h5 has been joined: take the instant out again
-          const auto memory = hdf5::create_in_memory();
-          copy_group(instant.group, memory, "instant");
-          write_file_atomically(target, hdf5::content_of(memory));
+        if (!fs::exists(target)) {  // fields.h5 has been joined: the instant anew, as it was to the byte
+          write_file_atomically(target, result.piece_content(read_instant(file, instant.group)));
         }
         result.instants_.push_back({times[index], hdf5::exists(instant.group, "p_s")});
       }
@@ -204,6 +202,12 @@ void FieldsFile::check_still_there() const {
       throw OutputError("write", piece(index), "it was removed while the run went on");
 }
 
+std::string FieldsFile::piece_content(const CellFields& fields) const {
+  const auto memory = hdf5::create_in_memory();
+  write_instant(hdf5::create_group(memory, "instant"), fields, spacing_);
+  return hdf5::content_of(memory);
+}
+
 void FieldsFile::append(const CellFields& fields) {
   check_sizes(fields);
   if (!instants_.empty() && !fs::exists(piece(instants_.size() - 1))) check_still_there();
@@ -214,9 +218,7 @@ void FieldsFile::append(const CellFields& fields) {
     fs::create_directories(path.parent_path(), error);
     if (error) throw OutputError("write", path, error.message());
     const hdf5::QuietErrors quiet;
-    const auto memory = hdf5::create_in_memory();
-    write_instant(hdf5::create_group(memory, "instant"), fields, spacing_);
-    return hdf5::content_of(memory);
+    return piece_content(fields);
   });
   write_file_atomically(path, content);
   instants_.push_back({fields.time, !fields.p_s.empty()});

@@ -47,6 +47,7 @@ class FieldsFile {
  private:
   FieldsFile(std::filesystem::path directory, const Scene& scene);
   std::filesystem::path piece(std::size_t index) const;
+  std::string piece_content(const CellFields& fields) const;
   void write_lists();
   void write_file_attributes(std::int64_t file) const;
   std::string xdmf() const;

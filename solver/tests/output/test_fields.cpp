@@ -112,6 +112,22 @@ TEST(FieldsFile, ResumeRemovesLaterInstantsLinkedOrJoined) {
   }
 }
 
+// A run that was joined, gone on with to the same end and joined again is the same file.
+TEST(FieldsFile, JoinedResumedAndJoinedAgainIsTheSameToTheByte) {
+  const TemporaryDirectory directory;
+  const auto scene = small_scene();
+  const std::vector times{0.0, 0.1};
+  auto first = FieldsFile::create(directory.path(), scene);
+  for (const double t : times) first.append(numbered_fields(scene, t));
+  const std::string piece = read_file(directory.path() / "fields/t0001.h5");
+  ASSERT_TRUE(first.join());
+  const std::string joined = read_file(directory.path() / "fields.h5");
+  auto again = FieldsFile::resume(directory.path(), scene, times);
+  EXPECT_TRUE(read_file(directory.path() / "fields/t0001.h5") == piece);
+  ASSERT_TRUE(again.join());
+  EXPECT_TRUE(read_file(directory.path() / "fields.h5") == joined);
+}
+
 // What was written stands in the joined file in the end: an instant that cannot be read is not gone on from.
 TEST(FieldsFile, ADamagedInstantIsRefusedOnResumeLinkedOrJoined) {
   const auto scene = make_scene(2, {100, 100, 1}, {1.0, 1.0, 1.0});  // most of a file is compressed numbers

@@ -208,7 +208,9 @@ TEST_F(RunCase, EverySignalOfASchedulerOrAShellStopsItWithACheckpoint) {
 TEST_F(RunCase, StoppedAtItsWallClockLimitAndResumedItIsTheSameRun) {
   const Scene scene = column_scene();
   ASSERT_EQ(run_into(path("whole"), scene), 0);
-  RunOptions options{path("parts"), "test"};
+  RunOptions options;
+  options.out = path("parts");
+  options.command = "test";
   options.progress = false;
   options.stop_after = 1e-9;
   for (int part = 1; part <= 3; ++part) {

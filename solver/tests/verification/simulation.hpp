@@ -19,10 +19,11 @@ inline Scene shipped_scene(const std::string& name, const std::vector<std::strin
 }
 
 // A measured number: a property of the test's record and a line that can be quoted.
-inline void report(const std::string& name, double value) {
+template <typename Number>
+void report(const std::string& name, Number value) {
   std::ostringstream text;
   text.precision(6);
-  text << value;
+  text << static_cast<double>(value);
   ::testing::Test::RecordProperty(name, text.str());
   std::printf("  %s = %s\n", name.c_str(), text.str().c_str());
 }

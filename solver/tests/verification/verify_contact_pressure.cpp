@@ -17,7 +17,7 @@ Collapse collapse(const char* contact_pressure) {
   Simulation run(
       shipped_scene("s1", {"grid.dx=0.005", std::string("numerics.contact_pressure=") + contact_pressure}));
   run.until(2.0 * std::sqrt(0.049 / 9.81));
-  Collapse result{{}, run.steps};
+  Collapse result{{}, static_cast<int>(run.steps)};
   for (int j = 0; j < run.grid.cells.n[1]; ++j)
     for (int i = 0; i < run.grid.cells.n[0]; ++i) result.f_s.push_back(run.now.f_s[run.cell(i, j)]);
   return result;
