@@ -97,7 +97,7 @@ TEST(SimpleShear, SteadyBalance) {
   report("P_s_over_dense_flow_law", p / p_law);
   report("P_s_over_law_with_9", p / (p_law * 9.0 / 15.0));
   report("shear_middle", (run.now.u_s[0][run.cell(1, 9)] - run.now.u_s[0][run.cell(1, 7)]) / (0.002 * rate));
-  report("steps", run.steps);
+  report("steps", static_cast<double>(run.steps));
   EXPECT_NEAR(theta, theory, 0.005 * theory);
   EXPECT_NEAR(p, p_law, 0.005 * p_law);
 }
@@ -179,7 +179,7 @@ PlaneShear plane_shear(const std::vector<std::string>& choices, double gap_in_di
   report("f_s_wall", f(1.0));
   report("theta_middle", theta(0.5));
   report("theta_wall", theta(1.0));
-  report("steps", run.steps);
+  report("steps", static_cast<double>(run.steps));
   return off;
 }
 

@@ -57,7 +57,7 @@ Start start_of(double packing, double until, const std::vector<std::string>& ove
     start.speed.add(run.now.time, 1e3 * run.now.u_s[0][run.cell(0, rows_of_layer - 1)]);
     start.pressure.add(run.now.time, base_over_top() - still);
   });
-  report(fmt::format("steps_{}", packing), run.steps);
+  report(fmt::format("steps_{}", packing), static_cast<double>(run.steps));
   return start;
 }
 
