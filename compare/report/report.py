@@ -32,13 +32,15 @@ def write(loaded, options):
     directories = {"charts": out / "charts"}
     if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts"):
         directories["charts"] = options.verify / "kept/charts"
-    for name in ("stability", "mutate"):
+    for name in ("stability", "mutate", "faults"):
         if not (out / name / f"{name}.json").exists():
             directories[name] = options.kept / name
     others = sections.read_all(out, directories)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     kept = kept_results.read(options.kept / "verify/results.json")
-    (options.verify / "report.html").write_text(page.render(loaded, plots, others, kept), encoding="utf-8")
+    draft = options.verify / "report.html.tmp"  # a page that a full disk has cut would look whole
+    draft.write_text(page.render(loaded, plots, others, kept), encoding="utf-8")
+    draft.replace(options.verify / "report.html")
     for sentence in loaded.damaged:
         complain(f"report: {sentence}")
     return 1 if loaded.damaged else 0
