@@ -251,12 +251,6 @@ TEST_F(Program, HandsRunsOverToTheReport) {
   EXPECT_EQ(granvof("report nothing-here").code, 2);
 }
 
-TEST_F(Program, SaysWhereItLookedForTheReport) {
-  const Outcome outcome = granvof("", "cp '" GRANVOF_PROGRAM "' alone && ./alone report out; exit $?;");
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.err.find("compare/show, which makes it, is neither"), std::string::npos) << outcome.err;
-}
-
 TEST_F(Program, EndsWithOneLineAndKeepsALog) {
   const Outcome outcome = granvof("run " + shipped("canary-dry") + dense + " --out out");
   const std::size_t at = outcome.err.find("canary-dry: finished, t = ");

@@ -73,14 +73,5 @@ TEST(RunLog, HoldsEveryMessageAndAResumedRunAddsToIt) {
   EXPECT_EQ(count(text_of(out / "run.log"), "finished"), 1U);
 }
 
-TEST(RunLog, SaysWhyARunFailed) {
-  const test::TemporaryDirectory temporary;
-  const auto out = temporary.path() / "run";
-  ASSERT_EQ(run_into(out, column_scene({"numerics.newton_max=1", "numerics.dt_min=4e-3",
-                                        "numerics.dt_max=5e-3", "numerics.volume_tolerance=1e-15"})),
-            1);
-  EXPECT_EQ(count(text_of(out / "run.log"), "step collapse"), 1U);
-}
-
 }  // namespace
 }  // namespace granvof
