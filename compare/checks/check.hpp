@@ -26,7 +26,7 @@ struct Parameters {
   std::optional<double> quiet;           // magnitude below which a signal counts as none
   std::optional<double> level;           // of f_s
   std::optional<std::string> published;  // file in cases/published, and
-  std::optional<std::string> column;     // the column of it that the metric is compared with
+  std::optional<std::string> column;     // of it, which the metric is compared with, or of series.csv
   std::optional<std::string> against;    // id of a second run
 };
 

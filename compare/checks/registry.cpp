@@ -272,8 +272,21 @@ Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
 }
 
 Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
-  return measured(numerical_share(energy_budget(run), run.facts.number("energy_turnover")),
+  return measured(share_of("numerical", energy_budget(run), run.facts.number("energy_turnover")),
                   "no energy budget in the series or in run.json");
+}
+
+// Both runs are of one scene, whose cells or steps differ by a factor of two.
+Measured energy_order(const Run& run, const Parameters& p, const FindRun& find) {
+  const Run* finer = find(*p.against);
+  if (!finer) return {std::nullopt, fmt::format("the run '{}' cannot be compared", *p.against)};
+  const auto last = [&](const Run& of) {
+    const Curve curve = of.curve(*p.column);
+    return curve.empty() ? 0.0 : curve.value.back();
+  };
+  const double coarse = last(run), fine = last(*finer);
+  return measured(coarse * fine > 0.0 ? std::optional(std::log2(coarse / fine)) : std::nullopt,
+                  "the two have not the same sign");
 }
 
 Measured warnings(const Run& run, const Parameters&, const FindRun&) {
@@ -379,6 +392,10 @@ constexpr std::array table{
     MetricEntry{"energy_numerical", "-",
                 "energy lost to numerics by the end over the energy turned over; negative: made", none,
                 energy_numerical},
+    MetricEntry{"energy_order", "-",
+                "power of 2 by which a column of the energy budget falls, at the end, to the run against it, "
+                "whose cells or steps are half as large",
+                Needs{.column = true, .against = true}, energy_order},
     MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
     MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds},
 };

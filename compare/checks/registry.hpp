@@ -27,6 +27,7 @@ struct Needs {
   bool quiet = false;
   bool level = false;
   bool published = false;  // file and column
+  bool column = false;     // of series.csv
   bool against = false;
 };
 

@@ -69,7 +69,7 @@ Parameters read_parameters(const TomlEntry& check, const MetricEntry& metric) {
   if (need(metric.needs.quiet, "quiet")) parameters.quiet = check.non_negative("quiet");
   if (need(metric.needs.level, "level")) parameters.level = check.number("level");
   if (need(metric.needs.published, "published")) parameters.published = check.text("published");
-  if (need(metric.needs.published, "column")) parameters.column = check.text("column");
+  if (need(metric.needs.published || metric.needs.column, "column")) parameters.column = check.text("column");
   if (need(metric.needs.against, "against")) parameters.against = check.text("against");
   return parameters;
 }

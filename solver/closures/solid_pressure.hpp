@@ -9,13 +9,13 @@
 
 namespace granvof::closures {
 
-// f_s >= 0. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
+// What grains in motion, or at rest without touching, bear beside the elastic pressure. f_s >= 0. With
+// `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included, so that kinetic and dense
 // parts together are max(P_s^K, P_s^D); with `resting` = P_s^W > 0 [Pa], the weight of grains at rest in a
 // partly filled cell (operators/bed_surface.hpp), max(P_s^K, P_s^D, P_s^W). `packing`: where the grains
 // touch, see elastic_pressure().
-inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                       bool dilatancy, double resting, double packing) {
-  PressureAndSlope p = elastic_pressure(f_s, c, packing);
+inline PressureAndSlope flow_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                      bool dilatancy, double resting, double packing) {
   PressureAndSlope flow{resting, 0.0};
   if (theta > 0.0 && f_s > 0.0) {
     const double g0 = radial_distribution(f_s, c.solid_fraction_max);
@@ -29,6 +29,14 @@ inline PressureAndSlope solid_pressure(double f_s, double theta, double e, doubl
       if (dense.value > flow.value) flow = dense;
     }
   }
+  return flow;
+}
+
+// The same with the elastic pressure.
+inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
+                                       bool dilatancy, double resting, double packing) {
+  PressureAndSlope p = elastic_pressure(f_s, c, packing);
+  const PressureAndSlope flow = flow_pressure(f_s, theta, e, rho_s, c, dilatancy, resting, packing);
   p.value += flow.value;
   p.slope += flow.slope;
   return p;
