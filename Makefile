@@ -2,8 +2,10 @@
 #
 # REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is named as left out, and not judged)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
-# OUT=dir           where results go (default: out)          JOBS=n     compile and test jobs
+# OUT=dir           where results go (default: out)          JOBS=n     jobs: compiling, tests, runs beside each other
+# GO_ON=yes         make verify keeps the runs that this very program has made, and goes on with those cut short
 # PREFIX=dir        where make install puts it (default: /usr/local)
+# SAMPLE=n          so many of the faults (make mutate)        FOR=n   seconds for each reader (make fuzz)
 # LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
@@ -24,7 +26,7 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 # $(call need,file): a target whose part of the project does not exist yet says so and fails.
 need = @test -x $(1) || { echo "make $@: not available yet: this version has no $(1)" >&2; exit 1; }
 
-.PHONY: help setup build install package verify test reference plots charts stability runout nightly faults bench format tidy sanitize
+.PHONY: help setup build install package verify test reference plots charts stability runout nightly faults mutate fuzz bench format tidy sanitize
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## */  make \1\t/' | expand -t 18
@@ -45,8 +47,8 @@ package: build  ## a Debian package of the same, for this machine's processor: o
 verify: setup  ## run the scenes and check them: table, out/verify/report.html, exit code
 	$(call need,compare/verify)
 	ci/build --programs --reference=$(REFERENCE) release
-	compare/verify --build-dir $(RELEASE) --out "$(OUT)" $(if $(VERIFY),--frequency $(VERIFY)) \
-	  $(if $(filter off,$(REFERENCE)),--without-canary)
+	compare/verify --build-dir $(RELEASE) --out "$(OUT)" --jobs $(JOBS) $(if $(VERIFY),--frequency $(VERIFY)) \
+	  $(if $(GO_ON),--go-on) $(if $(filter off,$(REFERENCE)),--without-canary)
 
 test: setup  ## unit and verification tests (ctest), then the Python tests
 	ci/build --reference=$(REFERENCE) release
@@ -74,7 +76,7 @@ runout: setup  ## why the run-out runs ahead late (compare/late-run-out.toml): s
 
 stability: setup  ## where the methods hold and fail, by bisection (half an hour); out/stability, drawn by `make plots`
 	ci/build --programs release
-	compare/stability --build-dir $(RELEASE) --out "$(OUT)"
+	compare/stability --build-dir $(RELEASE) --out "$(OUT)" --jobs $(JOBS)
 
 nightly: setup  ## all stages of the nightly run, with history and trends
 	$(call need,ci/nightly)
@@ -83,6 +85,12 @@ nightly: setup  ## all stages of the nightly run, with history and trends
 faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/faults.toml): tried and held, for the report
 	ci/build --programs --reference=$(REFERENCE) release
 	ci/faults --build-dir $(RELEASE) --out "$(OUT)"
+
+mutate: setup  ## small faults put into the code one at a time (ci/mutants): who notices each, for the report; goes on where it stopped
+	ci/mutate --out "$(OUT)" --jobs $(JOBS) $(if $(SAMPLE),--sample $(SAMPLE))
+
+fuzz: setup  ## any bytes at all into the readers of files, ten minutes each (FOR=n: n seconds)
+	ci/fuzz --out "$(OUT)" $(if $(FOR),--seconds $(FOR))
 
 bench: setup  ## performance of the parts, and of whole runs against their targets (ci/targets.toml)
 	ci/build --benchmarks release

@@ -2,8 +2,8 @@
 """Draws which part of the code includes which: docs/architecture.svg, from the #include lines.
 
 docs/architecture.py            write the picture
-docs/architecture.py --check    write nothing; exit code 1 if the picture is not that of the code, or if parts include each
-                                other in a circle
+docs/architecture.py --check    write nothing; exit code 1 if the picture is not that of the code, if parts include each other in
+                                a circle, or what they may not
 """
 
 import argparse
@@ -15,6 +15,7 @@ from xml.sax.saxutils import escape
 ROOT = Path(__file__).resolve().parent.parent
 PICTURE = ROOT / "docs/architecture.svg"
 GROUPS = ("reference/demvof", "solver", "compare")  # from left to right
+GROUP_FOLDERS = ("reference/", "solver/", "compare/")  # what else is included is another project's
 LEFT_OUT = {"tests", "bench"}
 COLOURS = {"reference/demvof": "#eedfc9", "solver": "#d5e4f2", "compare": "#dcecd8"}
 ABOUT = {
@@ -31,6 +32,7 @@ ABOUT = {
     "compare/checks": "table, registry, verdicts",
     "compare/lay": "series of others",
     "compare/output": "results, JUnit",
+    "compare/engine": "runs: lanes, limits, ends",
     "compare/study": "ablate, charts, advise",
     "compare/program": "granvof-compare",
     "reference/demvof/beads": "LIGGGHTS",
@@ -40,6 +42,16 @@ ABOUT = {
     "reference/demvof/bulk_friction": "chute, mu(I)",
     "reference/demvof/program": "demvof",
 }
+# What a part may include of the others: the libraries `scene` and `output` know nothing of the solver, and are all of it that compare
+# knows; demvof also shares the closure of the drag. The first that a part's name begins with holds.
+MAY_INCLUDE = {
+    "solver/scene": ("solver/scene",),
+    "solver/plausibility": ("solver/scene", "solver/closures"),  # pure functions, in headers
+    "solver/output": ("solver/scene", "solver/plausibility"),
+    "solver": ("solver",),
+    "compare": ("compare", "solver/scene", "solver/output"),
+    "reference": ("reference", "solver/scene", "solver/output", "solver/closures/drag"),
+}
 WIDTH, HEIGHT, GAP, ROW = 176, 44, 18, 92  # of a box, between boxes, between rows
 
 
@@ -48,16 +60,29 @@ def sources(root):
                   if not LEFT_OUT & set(path.relative_to(root).parts))
 
 
+def lines_of_includes(root):
+    """(part, its file, what the file includes), a line each."""
+    for path in sources(root):
+        for target in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.MULTILINE):
+            yield path.parent.relative_to(root).as_posix(), path, target
+
+
 def includes(root):
     """Part -> parts it includes."""
-    parts = {path: path.parent.relative_to(root).as_posix() for path in sources(root)}
-    graph = {part: set() for part in parts.values()}
-    for path, part in parts.items():
-        for target in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.MULTILINE):
-            other = Path(target).parent.as_posix()
-            if other in graph and other != part:
-                graph[part].add(other)
+    graph = {path.parent.relative_to(root).as_posix(): set() for path in sources(root)}
+    for part, _, target in lines_of_includes(root):
+        other = Path(target).parent.as_posix()
+        if other in graph and other != part:
+            graph[part].add(other)
     return graph
+
+
+def trespasses(root):
+    """What a file includes and may not, one sentence each."""
+    for part, path, target in lines_of_includes(root):
+        allowed = next(may for of, may in MAY_INCLUDE.items() if part.startswith(of))
+        if target.startswith(GROUP_FOLDERS) and not target.startswith((part + "/", *allowed)):
+            yield f"{path.relative_to(root)} includes {target}; {part} may include {', '.join(allowed)}"
 
 
 def circle(graph):
@@ -156,6 +181,10 @@ def main(arguments):
     round_about = circle(graph)
     if round_about:
         print(f"architecture: parts include each other: {' -> '.join(round_about)}", file=sys.stderr)
+        return 1
+    forbidden = list(trespasses(ROOT))
+    if forbidden:
+        print("\n".join(f"architecture: {line}" for line in forbidden), file=sys.stderr)
         return 1
     if not options.check:
         PICTURE.write_text(svg(graph), encoding="utf-8")

@@ -11,6 +11,7 @@ import json
 import re
 import shutil
 import subprocess
+import sys
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,10 @@ from pathlib import Path
 import h5py
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "solver/python"))
+
+from granvof_files import fields_of, is_there, required  # noqa: E402
+
 RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
 INSTANTS_KEPT = 4  # of fields.h5 that go into a record: the first, the last and two between
@@ -85,7 +90,7 @@ def one_line(error):
 def facts_of(path):
     """Content of a run.json or record.json without its seal. RecordError where it is damaged."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = required(path).read_text(encoding="utf-8")
         facts = json.loads(text)
     except (OSError, ValueError) as error:
         raise RecordError(f"{path} cannot be read: {one_line(error)}") from error
@@ -109,7 +114,7 @@ def is_sealed(text):
 
 def read_plan(path=ROOT / "reference/plan.toml"):
     try:
-        runs = [Run(**entry) for entry in tomllib.loads(path.read_text(encoding="utf-8"))["run"]]
+        runs = [Run(**entry) for entry in tomllib.loads(required(path).read_text(encoding="utf-8"))["run"]]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise RecordError(f"{path} is no plan: {one_line(error)}") from error
     if not runs:
@@ -171,12 +176,12 @@ def run_of(directory, plan=()):
 def state(run, case_hash, results=RESULTS):
     """'current', 'stale' or 'missing'."""
     try:
-        record = json.loads((run.folder(results) / "record.json").read_text())
+        record = json.loads(required(run.folder(results) / "record.json").read_text())
     except FileNotFoundError:
         return "missing"
-    except ValueError:
+    except (OSError, ValueError):
         return "stale"
-    return "current" if record.get("case_hash") == case_hash else "stale"
+    return "current" if isinstance(record, dict) and record.get("case_hash") == case_hash else "stale"
 
 
 def package_version(package):
@@ -194,7 +199,7 @@ def kept(names):
 
 def slim_fields(source, target):
     """Copies what a record keeps of fields.h5, in single precision, compressed; attributes are kept as they are."""
-    with h5py.File(source) as old, h5py.File(target, "w", libver=("v110", "v110")) as new:  # less overhead than older formats
+    with fields_of(source) as old, h5py.File(target, "w", libver=("v110", "v110")) as new:  # less overhead than older formats
         new.attrs.update(old.attrs)
         for number, name in enumerate(kept(sorted(old))):
             group = new.create_group(f"t{number:04}")
@@ -210,7 +215,7 @@ def slim_fields(source, target):
 
 def slim_series(source, target):
     """Copies series.csv with fewer digits."""
-    with open(source, newline="") as file:
+    with open(required(source), newline="") as file:
         header, *rows = csv.reader(file)
     rows = [[value and f"{float(value):.{DIGITS_KEPT}g}" for value in row] for row in rows]
     target.write_text("".join(",".join(row) + "\n" for row in [header, *rows]))
@@ -219,7 +224,7 @@ def slim_series(source, target):
 def read_series(path):
     """Header and rows of a series.csv, as texts. RecordError where it is damaged."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(required(path), newline="", encoding="utf-8") as file:
             text = file.read()
         header, *rows = csv.reader(text.splitlines(), strict=True)
         times = [float(row[0]) for row in rows]
@@ -235,7 +240,7 @@ def read_series(path):
 def instants_of(path):
     """How many instants a fields.h5 holds. RecordError where it is damaged."""
     try:
-        with h5py.File(path) as file:
+        with fields_of(path) as file:
             return len([file[name].attrs["time"] for name in file])
     except (OSError, KeyError) as error:
         raise RecordError(f"{path} cannot be read: {error}") from error
@@ -245,12 +250,12 @@ def stated_files(folder):
     """What run.json and record.json say of the files beside them: rows, end, columns and SHA-256 of series.csv, instants and
     SHA-256 of fields.h5 where there is one."""
     def digest(path):
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        return hashlib.sha256(required(path).read_bytes()).hexdigest()
 
     series, fields = folder / "series.csv", folder / "fields.h5"
     header, rows = read_series(series)
     stated = {"series.csv": {"rows": len(rows), "end": float(rows[-1][0]), "columns": header, "sha256": digest(series)}}
-    if fields.exists():
+    if is_there(fields):
         stated["fields.h5"] = {"instants": instants_of(fields), "sha256": digest(fields)}
     return stated
 

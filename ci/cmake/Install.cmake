@@ -1,12 +1,16 @@
-# `make install` and `make package`: the two programs, the Python module, the shipped cases, what advise and ablate read,
+# `make install` and `make package`: the two programs, the Python modules, the shipped cases, what advise and ablate read,
 # man pages and completion. Both are made of the programs' own --help when they are installed.
 include(GNUInstallDirs)
 
 set(share ${CMAKE_INSTALL_DATADIR}/granvof)
 install(TARGETS granvof_program granvof-compare RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES solver/python/granvof.py DESTINATION lib/python3/dist-packages)
+install(FILES solver/python/granvof.py solver/python/granvof_files.py DESTINATION lib/python3/dist-packages)
 install(DIRECTORY cases DESTINATION ${share})
 install(FILES compare/checks.toml compare/study.toml DESTINATION ${share}/compare)
+# What `granvof report` hands over to; it looks for the modules beside itself.
+install(PROGRAMS compare/show DESTINATION ${share}/compare)
+install(DIRECTORY compare/report DESTINATION ${share}/compare PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY solver/python DESTINATION ${share}/solver PATTERN __pycache__ EXCLUDE)
 install(FILES compare/kept/verify/results.json DESTINATION ${share}/compare/kept/verify)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
@@ -24,6 +28,6 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-h5py, python3-xarray")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-h5py, python3-xarray, python3-matplotlib, python3-jinja2")
 set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 include(CPack)

@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import stat
 
 from faults_tried.bench import TableError
 
@@ -59,6 +60,27 @@ def endless(path, chance):
     path.symlink_to("/dev/zero")
 
 
+def null(path, chance):
+    path.unlink()
+    path.symlink_to("/dev/null")
+
+
+def bound(path, chance):
+    """A socket."""
+    path.unlink()
+    os.mknod(path, stat.S_IFSOCK | 0o600)
+
+
+def to_nothing(path, chance):
+    path.unlink()
+    path.symlink_to(path.with_name("nothing at all"))
+
+
+def to_itself(path, chance):
+    path.unlink()
+    path.symlink_to(path.name)
+
+
 def flipped(path, chance):
     """One bit of one byte."""
     content = bytearray(path.read_bytes())
@@ -88,7 +110,8 @@ def digit(path, chance):
 
 
 BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text,
-                                         fifo, endless, flipped, line_out, line_twice, digit)}
+                                         fifo, endless, null, bound, to_nothing, to_itself, flipped, line_out, line_twice, digit)}
+NO_FILES = ("directory", "missing", "fifo", "endless", "null", "bound", "to_nothing", "to_itself")  # nothing to be read
 BY_CHANCE = ("flipped", "line_out", "line_twice", "digit")  # another one every time
 
 

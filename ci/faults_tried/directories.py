@@ -3,11 +3,10 @@
 import json
 import shutil
 import signal
-import time
 
 from faults_tried import damage
 from faults_tried.bench import TableError
-from faults_tried.runs import SmallRun, not_refused, same_content, tree_of
+from faults_tried.runs import SmallRun, not_refused, same_content, stopped_once, tree_of
 
 
 def two_in_one(bench, entry):
@@ -16,11 +15,7 @@ def two_in_one(bench, entry):
     for words in bench.some(entry["second"], entry["sample"]):
         out = bench.place() / "run"
         first = run.start(out)
-        until = time.monotonic() + 60.0
-        while not (out / "series.csv").exists() and first.poll() is None and time.monotonic() < until:
-            time.sleep(0.001)
-        first.send_signal(signal.SIGSTOP)
-        if first.poll() is not None:
+        if not stopped_once(first, (out / "series.csv").exists):
             yield f"a second run {' '.join(words)}", "the first had ended before"
             continue
         before = tree_of(out)
@@ -84,14 +79,14 @@ def damaged_resumes(bench, entry):
         file = out / name
         content = file.read_bytes()
         damage.BY_NAME[how](file, bench.chance)
-        if file.is_file() and not file.is_symlink() and how != "fifo" and file.read_bytes() == content:
+        if how not in damage.NO_FILES and file.read_bytes() == content:
             continue
-        before = {} if how in ("fifo", "endless") else tree_of(out)
+        before = tree_of(out)
         ended = run.go(out, "--resume", patience=60.0)
         if ended is not None and ended.returncode == 0:
             why = "" if same_content(out, run.whole) else run.same_bytes(out)
         else:
-            why = not_refused(ended, before or tree_of(out), out)
+            why = not_refused(ended, before, out)
         yield f"{name}, {how}", why
         bench.drop(out)
 

@@ -4,7 +4,8 @@ import json
 import shutil
 
 from faults_tried import damage
-from faults_tried.bench import TableError
+from faults_tried.bench import TableError, refused
+from faults_tried.runs import SmallRun
 
 # A check that every sound run passes.
 KEPT = """metric = "solid_volume_error"
@@ -56,8 +57,7 @@ def damaged_runs(bench, entry):
         damage.copy_of(whole / "run", runs / "run")
         before = (runs / "run" / name).read_bytes()
         way(runs / "run" / name, bench.chance)
-        file = runs / "run" / name
-        if file.is_file() and file.read_bytes() == before:
+        if how not in damage.NO_FILES and (runs / "run" / name).read_bytes() == before:
             continue
         ended = judged(bench, runs, table, place)
         why = ""
@@ -88,11 +88,24 @@ def damaged_records(bench, entry):
         file = damaged / name if name == "bands.json" else damaged / folder / name
         before = file.read_bytes()
         damage.BY_NAME[how](file, bench.chance)
-        if file.is_file() and not file.is_symlink() and file.read_bytes() == before:
+        if how not in damage.NO_FILES and file.read_bytes() == before:
             continue
         ended = judged(bench, whole, table, place, "--records", damaged)
         yield f"{name}, {how}", believed(ended, name)
         bench.drop(damaged)
+
+
+def damaged_reads(bench, entry):
+    """A run, whole or cut short, of which a file is none: whatever reads it refuses it."""
+    run = SmallRun(bench, entry)
+    tries = [(command, name, *way) for command in entry["commands"] for name in entry["files"] for way in damage.of_entry(entry)]
+    for command, name, how, way in bench.some(tries, entry["sample"]):
+        place = bench.place()
+        out = run.partial(place) if entry["cut_short"] else damage.copy_of(run.whole, place / "run")
+        way(out / name, bench.chance)
+        why = refused(bench.call(bench.filled(command, run=out, work=place)))
+        yield f"{' '.join(command[:2])} of {name}, {how}", why
+        bench.drop(out)
 
 
 def believed(ended, name):

@@ -1,11 +1,13 @@
 """What is odd about the place, the case or the moment of a run, though nobody has damaged anything."""
 
+import json
+import os
 import shutil
 import signal
 import time
 
 from faults_tried.bench import TableError, refused
-from faults_tried.runs import SmallRun, crashed, not_refused, tree_of
+from faults_tried.runs import SmallRun, crashed, not_refused, stopped_once, tree_of
 
 LONG_NAME = 3000  # letters
 
@@ -68,11 +70,7 @@ def a_link_for_the_series(bench, run, place):
 def begun(run, out, *words):
     """A run under way that is stopped for the moment."""
     running = run.start(out, *words)
-    until = time.monotonic() + 60.0
-    while not (out / "checkpoint.h5").exists() and running.poll() is None and time.monotonic() < until:
-        time.sleep(0.001)
-    running.send_signal(signal.SIGSTOP)
-    if running.poll() is not None:
+    if not stopped_once(running, (out / "checkpoint.h5").exists):
         raise TableError("the run had ended before anything could be tried on it")
     return running
 
@@ -106,6 +104,38 @@ class SaidOf:
 
     def start(self, out, *words):
         return self.run.start(out, *words, stderr=self.said)
+
+
+def moved_while_it_runs(bench, run, place):
+    """An error that is said, and what was moved goes on from where it was."""
+    with open(place / "said", "wb") as said:
+        running = begun(SaidOf(run, said), place / "run")
+        (place / "run").rename(place / "elsewhere")
+        running.send_signal(signal.SIGCONT)
+        code = running.wait()
+    if code != 1 or b"run" not in (place / "said").read_bytes():
+        return f"exit code {code}, said {(place / 'said').read_bytes()[-100:]!r}"
+    return run.why_not_whole(place / "elsewhere") or ("it made another" if (place / "run").exists() else "")
+
+
+def its_checkpoint_and_record_removed_while_it_runs(bench, run, place):
+    """They are written anew, from what it knows."""
+    running = begun(run, place / "run")
+    for name in ("checkpoint.h5", "run.json"):
+        (place / "run" / name).unlink()
+    running.send_signal(signal.SIGCONT)
+    return f"exit code {running.returncode}" if running.wait() else run.same_bytes(place / "run")
+
+
+def signals_in_quick_succession(bench, run, place):
+    running = begun(run, place / "run")
+    for number in (signal.SIGTERM, signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGTERM, signal.SIGCONT, signal.SIGTERM):
+        running.send_signal(number)
+    code = running.wait()
+    state = json.loads((place / "run/run.json").read_text())["exit"]["state"]
+    if (code, state) != (1, "stopped"):
+        return f"exit code {code}, run.json says {state}"
+    return run.why_not_whole(place / "run")
 
 
 def its_case_replaced_while_it_runs(bench, run, place):
@@ -143,11 +173,7 @@ def two_that_resume(bench, run, place):
     out = run.partial(place)
     before = inode(out / "checkpoint.h5")
     running = run.start(out, "--resume")  # a checkpoint of its own shows that it is under way
-    until = time.monotonic() + 60.0
-    while running.poll() is None and time.monotonic() < until and inode(out / "checkpoint.h5") in (before, None):
-        time.sleep(0.001)
-    running.send_signal(signal.SIGSTOP)
-    if running.poll() is not None:
+    if not stopped_once(running, lambda: inode(out / "checkpoint.h5") not in (before, None)):
         return "the first had ended before"
     kept = tree_of(out)
     why = not_refused(run.go(out, "--resume"), kept, out)
@@ -170,7 +196,8 @@ def no_standard_output_and_a_full_error_stream(bench, run, place):
 
 TRIES = {way.__name__: way for way in (
     a_link_to_a_directory, a_link_to_nothing, a_long_name, a_long_path, a_name_with_a_line_break, a_name_that_is_not_utf_8,
-    links_for_drafts, a_link_for_the_series, stopped_and_continued, removed_while_it_runs, its_case_replaced_while_it_runs,
+    links_for_drafts, a_link_for_the_series, stopped_and_continued, removed_while_it_runs, moved_while_it_runs,
+    its_checkpoint_and_record_removed_while_it_runs, signals_in_quick_succession, its_case_replaced_while_it_runs,
     the_checkpoint_of_another_case, two_that_resume, no_standard_output_and_a_full_error_stream)}
 
 
@@ -195,6 +222,11 @@ def odd_cases(bench, entry):
     for name, content in bench.some(forms.items(), 1):
         ended = bench.call([bench.granvof, "check", put(bench, stem.name, content)])
         yield name, "" if ended and ended.stdout == same.stdout and ended.returncode == 0 else "another case than without"
+    for name in bench.some(entry["cases"], entry["sample"]):
+        place = bench.place()
+        (place / "case.toml").write_bytes(CASES[name](place))
+        yield f"a case {name.replace('_', ' ')}", refused(bench.call([bench.granvof, "check", place / "case.toml"]))
+        bench.drop(place / "any")
     for text in bench.some(entry["refused"], entry["sample"]):
         ended = bench.call([bench.granvof, "check", put(bench, stem.name, plain + text.encode("utf-8", "surrogateescape"))])
         why = refused(ended)
@@ -202,6 +234,55 @@ def odd_cases(bench, entry):
         said = ended.stderr.decode(errors="replace") if ended else ""
         placed = any(f":{line - back}:" in said for back in range(text.count("\n") + 1))
         yield repr(text)[:60], why or ("" if placed else f"it does not say where: {said[:100]!r}")
+
+
+def large(place):
+    return b"# " + bytes(100 << 20).replace(b"\0", b"x") + b"\n"
+
+
+def nested(place):
+    return b"[a]\nb = " + b"[" * 100000 + b"]" * 100000
+
+
+def a_long_key(place):
+    return b"k" * (1 << 20) + b" = 1\n"
+
+
+def many_faults(place):
+    return b"[nothing]\n" + b"".join(b"k%d = 1\n" % n for n in range(20000))
+
+
+def on_itself(place):
+    return b'base = "case.toml"\n'
+
+
+def on_each_other(place):
+    (place / "other.toml").write_bytes(b'base = "case.toml"\n')
+    return b'base = "other.toml"\n'
+
+
+def on_a_long_chain(place):
+    for n in range(3000):
+        (place / f"{n}.toml").write_bytes(b'base = "%d.toml"\n' % (n + 1))
+    return b'base = "0.toml"\n'
+
+
+def on_nothing(place):
+    return b'base = "nothing.toml"\n'
+
+
+def on_a_pipe(place):
+    os.mkfifo(place / "pipe")
+    return b'base = "pipe"\n'
+
+
+def on_a_link_to_itself(place):
+    (place / "loop").symlink_to("loop")
+    return b'base = "loop"\n'
+
+
+CASES = {way.__name__: way for way in (large, nested, a_long_key, many_faults, on_itself, on_each_other, on_a_long_chain, on_nothing,
+                                       on_a_pipe, on_a_link_to_itself)}
 
 
 def put(bench, name, content):

@@ -1,6 +1,7 @@
 """Runs that are cut short, at random and at every call that changes a file, and go on."""
 
 import errno
+import json
 import signal
 import time
 
@@ -39,6 +40,27 @@ def kills_at_calls(bench, entry):
         why = "" if ended is not None and ended.returncode == -signal.SIGKILL else "it was not killed"
         yield f"{entry['case']}, call {number}", why or run.why_not_whole(out)
         bench.drop(out)
+
+
+def signals_at_calls(bench, entry):
+    """A signal at the n-th call that changes a file, the last ones too: the end is written, and it goes on as above."""
+    run, numbers = at_calls(bench, entry)
+    for name in entry["signals"]:
+        for number in numbers:
+            out = bench.place() / "run"
+            ended = run.go(out, environment=bench.shimmed(FAULT_CALL=str(number), FAULT_SIGNAL=str(int(getattr(signal, name)))))
+            before = ended is not None and ended.returncode == -getattr(signal, name) and not out.exists()  # it had not begun
+            yield (f"{entry['case']}, call {number}: {name}",
+                   "" if before else crashed(ended) or end_not_written(out) or run.why_not_whole(out))
+            bench.drop(out)
+
+
+def end_not_written(out):
+    """Why run.json does not say how the run ended; empty where it does, or where there is none."""
+    if not (out / "run.json").exists():
+        return ""
+    state = json.loads((out / "run.json").read_text())["exit"]["state"]
+    return "run.json says that it runs" if state == "running" else ""
 
 
 def failing_calls(bench, entry):

@@ -3,7 +3,7 @@ second is empty where it is."""
 
 import shutil
 
-from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orphans, scarce, threads
+from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orphans, reading, scarce, surroundings, threads
 from faults_tried.bench import SAMPLE, NotTried, refused
 
 
@@ -60,7 +60,7 @@ def locales(bench, entry):
 
 
 KINDS = {kind.__name__: kind for kind in (
-    bad_values, bad_files, evidence.damaged_runs, evidence.damaged_records, interrupted.kills, interrupted.kills_at_calls,
-    interrupted.failing_calls, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
+    bad_values, bad_files, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
+    interrupted.failing_calls, interrupted.signals_at_calls, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
     directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, hostile.hostile,
-    hostile.odd_cases, orphans.orphans, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}
+    hostile.odd_cases, orphans.orphans, orphans.ended_children, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

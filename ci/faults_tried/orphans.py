@@ -1,14 +1,16 @@
 """Programs that start others, ended by a signal: nothing that they started goes on, and the next start finds its way free."""
 
+import json
 import os
 import signal
 import subprocess
 import time
 from pathlib import Path
 
-from faults_tried.bench import TableError
+from faults_tried.bench import NotTried, TableError
 
 START = 180.0  # seconds until the program has started another
+REPORT = 900.0  # seconds until it has said what it made of that
 END = 30.0  # seconds after the signal in which all of them must have gone
 
 
@@ -57,6 +59,37 @@ def ended_in_the_midst(command, place, child, number, root):
     for pid in left:  # they are of this try: their command names its place
         os.kill(pid, signal.SIGKILL)
     return "" if gone else f"{len(left)} left, as {next(iter(left.values()), '?')[:100]!r}"
+
+
+def ended_children(bench, entry):
+    """What a program has started is ended from without, or a library ends it from within: it says so, and so does its record."""
+    if "{demvof}" in entry["command"] and not bench.demvof.exists():
+        raise NotTried("demvof was not built")
+    for name in bench.some(entry["signals"], entry["sample"]):
+        place = bench.place()
+        (place / "checks.toml").write_text(entry.get("checks", ""))
+        running = subprocess.Popen(bench.filled(entry["command"], work=place), cwd=bench.root, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+        def children():
+            return [pid for pid, words in processes_of(place).items() if pid != running.pid and entry["starts"] in words]
+
+        record = place / entry["record"]
+        wait_until(lambda: running.poll() is not None or (children() and record.exists()), START)
+        for pid in children():
+            os.kill(pid, getattr(signal, "SIG" + name))
+        try:
+            said = running.communicate(timeout=REPORT)[0].decode(errors="replace")
+        except subprocess.TimeoutExpired:
+            running.kill()
+            running.wait()
+            said = ""
+        state = json.loads(record.read_text())["exit"] if record.exists() else {}
+        why = "" if running.returncode == 1 else f"exit code {running.returncode}: {said[-200:]!r}"
+        if entry.get("states") and not why and state.get("state") != entry["states"]:
+            why = f"{entry['record']} says {state}"
+        yield f"{name} to what {' '.join(entry['command'][:2])} has started", why or ("" if said.strip() else "it said nothing")
+        bench.drop(place / "any")
 
 
 def orphans(bench, entry):

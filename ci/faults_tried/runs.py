@@ -1,7 +1,11 @@
 """The run that faults are tried on: a case of the table, its command, what it writes, and whether two of them are equal."""
 
+import os
 import shutil
+import signal
+import stat
 import subprocess
+import time
 
 import h5py
 
@@ -62,6 +66,21 @@ class SmallRun:
         raise TableError(f"{self.entry['case']}: killed in its midst the run has left nothing to resume")
 
 
+def stop(process):
+    """Stops a process, and waits until it has: a signal takes its time, in which a file may come or go. False where the process
+    had ended before."""
+    process.send_signal(signal.SIGSTOP)
+    return os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT).si_code == os.CLD_STOPPED
+
+
+def stopped_once(process, begun):
+    """Stops a process as soon as `begun()`; False where it ended before."""
+    until = time.monotonic() + 60.0
+    while not begun() and process.poll() is None and time.monotonic() < until:
+        time.sleep(0.001)
+    return process.poll() is None and stop(process)
+
+
 def content_of(directory):
     """Rows to the byte; fields to the bit, joined in one file or not."""
     fields = {}
@@ -79,8 +98,8 @@ def same_content(one, other):
 
 
 def tree_of(directory):
-    """Every name below a directory, with the bytes of the files."""
-    return {str(path.relative_to(directory)): path.read_bytes() if path.is_file() else None
+    """Every name below a directory, with the bytes of the files and what else stands there."""
+    return {str(path.relative_to(directory)): path.read_bytes() if path.is_file() else stat.S_IFMT(path.lstat().st_mode)
             for path in sorted(directory.rglob("*"))}
 
 

@@ -1,8 +1,11 @@
 /* Put before the C library (LD_PRELOAD) by ci/faults: counts the calls that change files, and lets the one asked for go wrong.
  *
  *   FAULT_COUNT=FILE   writes into FILE how many calls there were, at the end of the program
- *   FAULT_CALL=N       the N-th call is killed (SIGKILL), a write after half of its bytes; FAULT_ERRNO=E: it fails with E
+ *   FAULT_CALL=N       the N-th call is killed (SIGKILL), a write after half of its bytes; FAULT_ERRNO=E: it fails with E;
+ *                      FAULT_SIGNAL=S: that signal comes before it, and it is done
  *   FAULT_BYTES=N      a disk with N bytes left: what goes beyond is cut off, then fails with ENOSPC
+ *   FAULT_READ=N       the N-th read of a file below FAULT_BELOW fails with FAULT_ERRNO, or EIO; FAULT_COUNT counts these then
+ *   FAULT_CLOCK=1      the clock of the day goes back an hour each time it is read
  *
  * Standard streams are let off. The program has one thread; a process that it makes counts on from where it was made,
  * its calls fail and are not killed: a kill is the whole program's. */
@@ -16,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static long calls = 0;
@@ -46,8 +50,14 @@ __attribute__((destructor)) static void end(void) {
 }
 
 static int is_due(void) {
+  if (getenv("FAULT_READ")) return 0;
   ++calls;
-  return calls == number("FAULT_CALL") && (getpid() == begun_as || number("FAULT_ERRNO") != 0);
+  if (calls != number("FAULT_CALL")) return 0;
+  if (number("FAULT_SIGNAL") != 0) {
+    if (getpid() == begun_as) raise((int)number("FAULT_SIGNAL"));
+    return 0;
+  }
+  return getpid() == begun_as || number("FAULT_ERRNO") != 0;
 }
 
 /* Does not return where the call is to be killed. */
@@ -180,4 +190,47 @@ int ftruncate(int fd, off_t size) {
 
 int ftruncate64(int fd, off_t size) {
   return is_due() ? fail() : ((int (*)(int, off_t))next("ftruncate64"))(fd, size);
+}
+
+/* Whether a read is the one to fail: of a regular file below FAULT_BELOW. */
+static int read_is_due(int fd) {
+  const char* below = getenv("FAULT_BELOW");
+  if (!below || !getenv("FAULT_READ")) return 0;
+  char link[64], path[4096];
+  snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+  const ssize_t length = readlink(link, path, sizeof path - 1);
+  if (length < 0) return 0;
+  path[length] = 0;
+  if (strncmp(path, below, strlen(below)) != 0) return 0;
+  return ++calls == number("FAULT_READ");
+}
+
+static ssize_t fail_to_read(void) {
+  errno = number("FAULT_ERRNO") != 0 ? (int)number("FAULT_ERRNO") : EIO;
+  return -1;
+}
+
+ssize_t read(int fd, void* data, size_t size) {
+  if (read_is_due(fd)) return fail_to_read();
+  return ((ssize_t(*)(int, void*, size_t))next("read"))(fd, data, size);
+}
+
+static ssize_t read_at(const char* name, int fd, void* data, size_t size, off_t offset) {
+  if (read_is_due(fd)) return fail_to_read();
+  return ((ssize_t(*)(int, void*, size_t, off_t))next(name))(fd, data, size, offset);
+}
+
+ssize_t pread(int fd, void* data, size_t size, off_t offset) {
+  return read_at("pread", fd, data, size, offset);
+}
+
+ssize_t pread64(int fd, void* data, size_t size, off_t offset) {
+  return read_at("pread64", fd, data, size, offset);
+}
+
+int clock_gettime(clockid_t clock, struct timespec* now) {
+  static time_t back = 0;
+  const int code = ((int (*)(clockid_t, struct timespec*))next("clock_gettime"))(clock, now);
+  if (code == 0 && clock == CLOCK_REALTIME && getenv("FAULT_CLOCK")) now->tv_sec -= (back += 3600);
+  return code;
 }

@@ -7,12 +7,14 @@ import subprocess
 LONGEST_LIST = 200  # tries that were not held, in the report
 
 
-def section(counts, missed, commit, sample):
-    """`counts`: (kind, what it is, tried, held); `missed`: (kind, try, why)."""
+def section(counts, missed, commit, sample, to_come):
+    """`counts`: (kind, what it is, tried, held); `missed`: (kind, try, why); `to_come`: kinds that were not tried yet."""
     tried, held = (sum(row[column] for row in counts) for column in (2, 3))
     rows = [list(row) for row in counts] + [["all", "", tried, held]]
     text = [f"What can go wrong was tried against the built programs (ci/faults.toml{', a sample' if sample else ''}): "
             f"{held} of {tried} tries held."]
+    if to_come:
+        text.append(f"It was ended before these were tried: {', '.join(to_come)}.")
     tables = [{"caption": "Tried and held", "columns": ["kind", "what", "tried", "held"], "rows": rows}]
     if missed:
         tables.append({"caption": "Not held", "columns": ["kind", "try", "why"],
@@ -21,9 +23,9 @@ def section(counts, missed, commit, sample):
             "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")}
 
 
-def write(directory, root, counts, missed, sample):
+def write(directory, root, counts, missed, sample, to_come):
     commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=root, capture_output=True, text=True).stdout.strip()
     directory.mkdir(parents=True, exist_ok=True)
     draft = directory / "faults.json.tmp"
-    draft.write_text(json.dumps(section(counts, missed, commit, sample), indent=1) + "\n", encoding="utf-8")
+    draft.write_text(json.dumps(section(counts, missed, commit, sample, to_come), indent=1) + "\n", encoding="utf-8")
     draft.rename(directory / "faults.json")

@@ -6,6 +6,7 @@ import json
 import math
 from pathlib import Path
 
+from granvof_files import required
 from night.history import Cost, Metric
 
 
@@ -24,7 +25,7 @@ def read_verification(path: Path) -> tuple[list[Metric], list[Cost], list[str]]:
     if not path.exists():
         return [], [], []
     try:
-        return _verification(json.loads(path.read_text(encoding="utf-8")))
+        return _verification(json.loads(required(path).read_text(encoding="utf-8")))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise _damaged(path, error) from error
 
@@ -57,7 +58,7 @@ def read_times(path: Path) -> list[Cost]:
     if not path.exists():
         return []
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = json.loads(required(path).read_text(encoding="utf-8"))
         return [Cost(name, entry["unit"], float(entry["value"])) for name, entry in data.items()]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise _damaged(path, error) from error

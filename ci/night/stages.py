@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable, Sequence
 
+from granvof_files import required
 from night.together import ends_with_parent
 
 GUARD = str(Path(__file__).resolve().parent / "guard.py")
@@ -54,7 +55,7 @@ class StageRun:
         """ValueError, one line, where its state is damaged."""
         path = directory / "state.json"
         try:
-            data = json.loads(path.read_text(encoding="utf-8"))
+            data = json.loads(required(path).read_text(encoding="utf-8"))
             outcomes = {name: Outcome(**outcome) for name, outcome in data["outcomes"].items()}
             return cls(directory, data["facts"], outcomes, data["finished"])
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:

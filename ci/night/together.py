@@ -24,9 +24,14 @@ def ends_with_parent(parent=None):
 
 
 def end_cleanly_on_signals():
-    """SIGTERM and SIGHUP end this program as an exception does, so that what it started is ended too."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, lambda signum, frame: sys.exit(128 + signum))
+    """SIGTERM and SIGHUP end this program as an exception does, so that what it started is ended too. What the caller ignores
+    (nohup) stays ignored, but SIGCHLD: how a child ended would not be told, and Python takes that for success."""
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    ends = (signal.SIGTERM, signal.SIGHUP)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, ends)
+    for number in ends:
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, lambda signum, frame: sys.exit(128 + signum))
 
 
 def hold(directory, who):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from faults_tried import damage, scarce
+from faults_tried import damage, runs, scarce
 from faults_tried.bench import read_table
 from faults_tried.kinds import KINDS
 
@@ -121,6 +121,19 @@ def test_a_run_that_does_not_go_on_after_a_kill_is_found_out(tmp_path):
                "echo {} > run.json; touch fields.h5 fields.xdmf; exit 0")
     done = tried(tmp_path, granvof, '[[kills]]\ncase = "cases/s1.toml"\ntimes = 2\nsample = 2\n')
     assert done.returncode == 1 and "other bytes in series.csv" in done.stdout, done.stdout + done.stderr
+
+
+def test_a_process_that_is_stopped_has_stopped():
+    """A signal takes its time, and what is looked at meanwhile may change."""
+    for _ in range(20):
+        process = subprocess.Popen(["/bin/sh", "-c", "while :; do :; done"])
+        assert runs.stop(process)
+        state = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[0]
+        process.kill()
+        process.wait()
+        assert state == "T"
+    ended = subprocess.Popen(["/bin/true"])
+    assert not runs.stopped_once(ended, lambda: False)
 
 
 def test_memory_that_grows_is_found_out():

@@ -35,3 +35,14 @@ def test_each_program_has_its_page_and_its_completion(installed):
 def test_the_module_is_found(installed):
     subprocess.run(["/usr/bin/python3", "-c", "import granvof; granvof.load"], check=True,
                    env=os.environ | {"PYTHONPATH": str(installed / "lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"})
+
+
+def test_a_report_is_made_without_the_sources(installed, tmp_path):
+    case = installed / "share/granvof/cases/canary-dry.toml"
+    run = [installed / "bin/granvof", "run", case, "--out", "run", "--set", "time.end=0.2", "--set", "output.series_interval=0.05",
+           "--set", "output.field_times=[0]"]
+    subprocess.run(run, cwd=tmp_path, check=True, capture_output=True)
+    made = subprocess.run([installed / "bin/granvof", "report", "run"], cwd=tmp_path, capture_output=True, text=True,
+                          env=os.environ | {"MPLCONFIGDIR": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"})
+    assert made.returncode == 0, made.stderr
+    assert (tmp_path / "run/report/report.html").exists()

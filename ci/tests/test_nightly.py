@@ -45,7 +45,8 @@ def repository(tmp_path):
     shutil.copytree(CI / "night", root / "ci/night", ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("nightly", "bless"):
         shutil.copy(CI / name, root / "ci" / name)
-    scripts = {"ci/setup": "#!/bin/sh\n", "ci/build": "#!/bin/sh\nmkdir -p build\n", "ci/bench": "#!/bin/sh\n",
+    scripts = {"ci/setup": "#!/bin/sh\n", "ci/build": "#!/bin/sh\nmkdir -p build\n", "ci/bench": "#!/bin/sh\n", "ci/mutate": "#!/bin/sh\n",
+               "ci/fuzz": "#!/bin/sh\n",
                "ci/performance": PERFORMANCE, "compare/verify": VERIFY, "compare/report/trust_table.py": "#!/bin/sh\n"}
     for name, text in scripts.items():
         (root / name).write_text(text)
@@ -95,8 +96,8 @@ def test_twice_on_one_commit_is_no_change_then_a_change_then_blessed(repository)
 
     runs = sorted((repository / "out/nightly/runs").iterdir())
     assert len(runs) == 4
-    assert {"1-clone.log", "2-build.log", "3-tests.log", "4-sanitize.log", "5-tidy.log", "6-verify.log",
-            "8-performance.log", "summary.txt", "trends.html",
+    assert {"1-clone.log", "2-build.log", "3-tests.log", "4-sanitize.log", "5-tidy.log", "6-fuzz.log", "7-mutate.log", "8-verify.log",
+            "10-performance.log", "summary.txt", "trends.html",
             "state.json", "times.json", "verify"} <= {p.name for p in runs[0].iterdir()}
     assert "REFERENCE=on" in (runs[0] / "5-tidy.log").read_text()
     assert not (repository / "out/nightly/clone").exists()
@@ -109,7 +110,7 @@ def test_broken_build_blocks_the_rest_but_is_reported(repository):
     commit(repository)
     done = nightly(repository)
     assert done.returncode == 1
-    assert "build: failed, tests: blocked, sanitize: blocked, tidy: blocked, verify: blocked" in done.stdout
+    assert "build: failed, tests: blocked, sanitize: blocked, tidy: blocked, fuzz: blocked, mutate: blocked, verify: blocked" in done.stdout
 
 
 def test_interrupted_run_goes_on(repository):
@@ -122,7 +123,7 @@ def test_interrupted_run_goes_on(repository):
     flag.touch()
     again = nightly(repository)
     assert "going on with" in again.stdout
-    assert "2/9 build        passed (before)" in again.stdout
+    assert "2/11 build        passed (before)" in again.stdout
     assert again.returncode == 0, again.stdout + again.stderr
     assert len(list((repository / "out/nightly/runs").iterdir())) == 1
 
@@ -156,7 +157,7 @@ def test_stages_can_be_left_out_and_are_named(repository):
     commit(repository)
     done = nightly(repository, "--without", "tests", "reference")
     assert done.returncode == 0, done.stdout
-    assert "5/7 verify" in done.stdout and "stages left out\n  reference\n  tests\n" in done.stdout
+    assert "7/9 verify" in done.stdout and "stages left out\n  reference\n  tests\n" in done.stdout
     run = next((repository / "out/nightly/runs").iterdir())
     assert "built with --programs --reference=off release" in (run / "2-build.log").read_text()
     assert "REFERENCE=off" in (run / "4-tidy.log").read_text()
@@ -167,7 +168,7 @@ def test_findings_of_sanitizers_and_lint_are_named_and_the_rest_runs(repository)
     commit(repository)
     done = nightly(repository)
     assert done.returncode == 1
-    assert "stages not passed: sanitize: failed, tidy: failed" in done.stdout and "6/9 verify       passed" in done.stdout
+    assert "stages not passed: sanitize: failed, tidy: failed" in done.stdout and "8/11 verify       passed" in done.stdout
 
 
 def test_a_readme_that_states_other_results_is_red(repository):
@@ -177,7 +178,7 @@ def test_a_readme_that_states_other_results_is_red(repository):
     assert done.returncode == 1
     assert "stages not passed: verify: failed" in done.stdout
     run = next((repository / "out/nightly/runs").iterdir())
-    assert "--check --verify out/verify: kept 2.1; now 2.16" in (run / "6-verify.log").read_text()
+    assert "--check --verify out/verify: kept 2.1; now 2.16" in (run / "8-verify.log").read_text()
 
 
 def test_a_run_that_failed_is_named(repository):

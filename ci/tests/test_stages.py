@@ -135,7 +135,7 @@ def test_nothing_outlives_a_night_that_is_ended(tmp_path, number):
     text = f"tail -f {mark} & sh -c 'tail -f {mark}; true'; true"
     night = subprocess.Popen([PYTHON, "-c", f"""
 import sys
-sys.path.insert(0, {str(CI)!r})
+sys.path[:0] = [{str(CI)!r}, {str(CI.parent / "solver/python")!r}]
 from pathlib import Path
 from night.stages import Stage, StageRun, run_stages
 from night.together import end_cleanly_on_signals

@@ -84,7 +84,7 @@ def test_every_closure_is_on_a_page():
 
 def test_every_choice_of_the_model_is_on_a_page():
     """A switch or choice of [model] that nobody can read about is a magic word."""
-    keys = (ROOT / "solver/scene/keys.cpp").read_text(encoding="utf-8")
+    keys = "".join((ROOT / f"solver/scene/{name}.cpp").read_text(encoding="utf-8") for name in ("keys", "keys_of_model"))
     schemes = "solid_flux|bed_surface|interface_scheme|contact_pressure"
     names = set(re.findall(rf'"(model\.\w+|numerics\.(?:{schemes}))"', keys))
     text = "\n".join(page.read_text(encoding="utf-8") for page in THEORY.glob("*.md"))

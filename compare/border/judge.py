@@ -1,13 +1,14 @@
 """Runs one point and judges it. To hold is more than to end: no monitor warns, and half the step gives the same."""
 
 import csv
-import json
-import math
-import resource
-import signal
-import subprocess
+import threading
 import tomllib
 from dataclasses import dataclass
+from pathlib import Path
+
+from engine.client import BAD_INPUT, CPU_LIMIT, FINISHED, SIGNAL, order
+
+from granvof_files import required
 
 # Classes of an outcome, from good to bad. The last is the one that must not exist: wrong, and no monitor says so.
 HOLDS, COLLAPSE, BLOW_UP, DETECTED, UNDETECTED = (
@@ -27,35 +28,29 @@ class Outcome:
 
 
 class Runner:
-    def __init__(self, solver, directory, timeout):
-        self.solver, self.directory, self.timeout = solver, directory, timeout
-        self.core_seconds, self.runs = 0.0, 0
+    """Judges points with runs of the engine, as many at a time as that makes; its methods may be called from several threads."""
+
+    def __init__(self, engine, directory, limit, keep=True):
+        self.engine, self.directory, self.limit, self.keep = engine, directory, limit, keep
+        self.core_seconds, self.runs, self.lock = 0.0, 0, threading.Lock()
 
     def run(self, case, overrides, name):
-        """Exit text ("finished", ...) and directory of a run."""
-        out = self.directory / name
-        command = [self.solver, "run", case, "--threads", "1", "--out", out]
-        for override in overrides:
-            command += ["--set", override]
-        self.runs += 1
-        ended = subprocess.run([str(part) for part in command], capture_output=True, text=True, preexec_fn=self.limit)
-        if ended.returncode == -signal.SIGXCPU or "(SIGXCPU)" in ended.stderr:  # it ends itself, with a checkpoint
-            return "timeout", out
-        if ended.returncode == 2:
-            raise RuntimeError(f"{name}: {ended.stderr.strip()}")
-        return "done", out
-
-    def limit(self):
-        """CPU time and not the clock: a border must not move with what else the machine does."""
-        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(self.timeout), math.ceil(self.timeout) + 5))
+        """Its ending. CPU time is limited and not the clock: a border must not move with what else the machine does."""
+        ending = self.engine.make(order(name, case, self.directory / name, overrides, keep=self.keep, clear=True,
+                                        cpu_limit=self.limit))
+        if ending.kind in (BAD_INPUT, SIGNAL, "crashed"):
+            raise RuntimeError(f"{name}: {ending.message}")
+        with self.lock:
+            self.runs += 1
+            self.core_seconds += 0.0 if ending.kind == CPU_LIMIT else ending.record()["core_seconds"]
+        return ending
 
     def judge(self, scene, overrides, name, allow=()):
         """The outcome of a point: `overrides` of the scene's case, and the same at half the step."""
-        ended, out = self.run(scene.case, overrides, name)
-        if ended == "timeout":
-            return Outcome(COLLAPSE, f"not done after {self.timeout:g} core-s")
-        record = json.loads((out / "run.json").read_text())
-        self.core_seconds += record["core_seconds"]
+        ended = self.run(scene.case, overrides, name)
+        if ended.kind == CPU_LIMIT:
+            return Outcome(COLLAPSE, f"not done after {self.limit:g} core-s")
+        record = ended.record()
         outcome = self.classify(record, allow)
         # What a monitor warns of, allowed or not, is detected.
         apart = DETECTED if record["warnings"] else UNDETECTED
@@ -63,16 +58,13 @@ class Runner:
             return outcome
         numerics = tomllib.loads(record["resolved_case"])["numerics"]
         refined = overrides + [f"numerics.{key}={0.5 * numerics[key]:.9g}" for key in ("cfl", "dt_max")]
-        ended, finer = self.run(scene.case, refined, name + "-half-step")
-        if ended == "timeout":
-            return Outcome(COLLAPSE, f"half the step takes more than {self.timeout:g} core-s", outcome.steps,
-                           outcome.core_seconds)
-        other = json.loads((finer / "run.json").read_text())
-        self.core_seconds += other["core_seconds"]
-        if other["exit"]["state"] != "finished":
-            return Outcome(apart, f"half the step fails: {other['exit']['reason']}", outcome.steps, outcome.core_seconds)
+        finer = self.run(scene.case, refined, name + "-half-step")
+        if finer.kind == CPU_LIMIT:
+            return Outcome(COLLAPSE, f"half the step takes more than {self.limit:g} core-s", outcome.steps, outcome.core_seconds)
+        if not finer.finished:
+            return Outcome(apart, f"half the step fails: {finer.message}", outcome.steps, outcome.core_seconds)
         for column, tolerance in scene.compare.items():
-            moved = distance(series(out, column), series(finer, column))
+            moved = distance(series(Path(ended.directory), column), series(Path(finer.directory), column))
             if moved > tolerance:
                 return Outcome(apart, f"{column} {moved:.2g} from half the step's, {tolerance:g} allowed", outcome.steps,
                                outcome.core_seconds)
@@ -82,10 +74,9 @@ class Runner:
     def classify(record, allow):
         """By run.json alone."""
         steps, cost = record["steps"], record["core_seconds"]
-        state, reason = record["exit"]["state"], record["exit"]["reason"]
-        if state != "finished":
-            kind = COLLAPSE if reason.startswith("step collapse") and "not finite" not in reason else BLOW_UP
-            return Outcome(kind, reason, steps, cost)
+        kind, reason = record["exit"]["kind"], record["exit"]["reason"]
+        if kind != FINISHED:
+            return Outcome(COLLAPSE if kind == "step collapse" else BLOW_UP, reason, steps, cost)
         warnings = [w for w in record["warnings"] if w["monitor"] not in allow]
         if warnings:
             worst = max(warnings, key=lambda w: w["value"] / w["limit"] if w["limit"] else float("inf"))
@@ -95,7 +86,7 @@ class Runner:
 
 def series(run, column):
     """(times, values) of a column of series.csv; undefined values left out."""
-    with open(run / "series.csv", newline="") as file:
+    with open(required(run / "series.csv"), newline="") as file:
         rows = list(csv.reader(file))
     names = [name.split(" [")[0] for name in rows[0]]
     at = names.index(column)

@@ -4,6 +4,8 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from granvof_files import required
+
 
 class TableError(Exception):
     """Bad input; its text is the one line for the user."""
@@ -97,7 +99,7 @@ def read_axis(entry, scenes, path):
 def read(path):
     """The table of a file; TableError, one line, for whatever is wrong with it."""
     try:
-        return read_data(tomllib.loads(path.read_text(encoding="utf-8")), path)
+        return read_data(tomllib.loads(required(path).read_text(encoding="utf-8")), path)
     except (OSError, ValueError, TypeError, AttributeError) as error:  # a value of another kind than it is taken for
         raise TableError(f"{path}: {' '.join(str(error).split())}") from error
 

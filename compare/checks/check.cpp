@@ -24,6 +24,8 @@ std::string_view name_of(ReferenceKind kind) {
       return "published";
     case ReferenceKind::dem:
       return "DEM";
+    case ReferenceKind::aim:
+      return "aim";
     case ReferenceKind::regression:
       return "regression";
   }

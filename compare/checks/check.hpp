@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/metrics/curve.hpp"
+#include "compare/checks/parameters.hpp"
 
 namespace granvof::compare {
 
@@ -14,21 +14,10 @@ namespace granvof::compare {
 enum class Frequency { short_, verify, nightly, weekly };
 
 // Where the reference comes from.
-enum class ReferenceKind { theory, published, dem, regression };
+enum class ReferenceKind { theory, published, dem, aim, regression };
 
 // What the value is asked to be, relative to the reference.
 enum class Relation { equal, at_most, at_least };
-
-// Parameters of a metric; which of them it takes stands in the registry (checks/registry.hpp).
-struct Parameters {
-  std::optional<Window> window;          // of time [s], or of T where the metric says so
-  std::optional<double> at;              // an instant, t [s] or T
-  std::optional<double> quiet;           // magnitude below which a signal counts as none
-  std::optional<double> level;           // of f_s
-  std::optional<std::string> published;  // file in cases/published, and
-  std::optional<std::string> column;     // of it, which the metric is compared with, or of series.csv
-  std::optional<std::string> against;    // id of a second run
-};
 
 struct Reference {
   ReferenceKind kind = ReferenceKind::theory;

@@ -8,6 +8,7 @@
 
 #include "compare/checks/registry.hpp"
 #include "compare/checks/theory.hpp"
+#include "compare/checks/whole_curve.hpp"
 #include "compare/input/records.hpp"
 #include "compare/input/table_error.hpp"
 #include "compare/input/uncertainty.hpp"
@@ -76,6 +77,15 @@ ReferenceValue stated_reference(const Check& check, const Run& run) {
   return reference;
 }
 
+ReferenceValue reference_of_curve(const CurveApart& apart) {
+  ReferenceValue reference;
+  if (apart.usable) reference.value = 0.0;
+  reference.band = apart.band;
+  reference.without = apart.without;
+  reference.note = apart.note;
+  return reference;
+}
+
 // A run that the row needs and that is not there, or holds nothing to measure, is never a pass; one that is
 // damaged is red also where the row is only reported.
 Result without_value(Result result, Verdict verdict, std::string note) {
@@ -98,15 +108,20 @@ Result measure_and_judge(Result result, const Evaluation& evaluation, const Run&
     const auto found = evaluation.usable.find(std::string(id));
     return found == evaluation.usable.end() ? nullptr : &found->second;
   };
-  const Measured measured = metric.function(run, check.parameters, find);
+  CurveApart apart;
+  if (metric.curve) apart = apart_from_record(check, metric, run, records.at(*check.reference.record), bands);
+  const Measured measured = metric.curve ? apart.distance : metric.function(run, check.parameters, find);
   result.value = measured.value;
   const ReferenceValue reference =
-      check.reference.record
+      metric.curve ? reference_of_curve(apart)
+      : check.reference.record
           ? recorded_reference(check, metric, records.at(*check.reference.record), find, bands)
           : stated_reference(check, run);
   result.reference = reference.value;
   result.band = reference.band;
   result.note = reference.note;
+  if (metric.curve && !reference.value)
+    return without_value(std::move(result), reference.without, reference.note);
   if (!measured.value)
     return without_value(std::move(result), check.asserted ? Verdict::differs : Verdict::reported,
                          measured.note);
@@ -190,6 +205,19 @@ std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency) {
   for (const PlannedRun& run : table.runs)
     if (needed.contains(run.id)) due.push_back(run);
   return due;
+}
+
+std::vector<Order> orders_of(const Table& table, Frequency frequency, const Paths& paths) {
+  std::set<std::string> timed;
+  for (const Check& check : due_checks(table, frequency))
+    if (find_metric(check.metric)->of_cost) timed.insert(check.run);
+  std::vector<Order> orders;
+  for (const PlannedRun& run : due_runs(table, frequency)) {
+    Order order{run.id, paths.cases / (run.case_name + ".toml"), run.set, paths.runs / run.id};
+    order.timed = timed.contains(run.id);
+    orders.push_back(std::move(order));
+  }
+  return orders;
 }
 
 Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths, const LeftOut& left_out) {

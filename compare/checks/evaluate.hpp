@@ -9,6 +9,7 @@
 
 #include "compare/checks/check.hpp"
 #include "compare/checks/verdict.hpp"
+#include "compare/engine/order.hpp"
 #include "compare/input/run.hpp"
 
 namespace granvof::compare {
@@ -57,6 +58,8 @@ struct Evaluation {
 std::vector<Check> due_checks(const Table& table, Frequency frequency);
 // The runs those rows read, in the order of the table.
 std::vector<PlannedRun> due_runs(const Table& table, Frequency frequency);
+// Those runs as orders of the run engine, into RUNS/ID; timed where a due row is of their cost.
+std::vector<Order> orders_of(const Table& table, Frequency frequency, const Paths& paths);
 
 // What the driver found when it ran the reference's canary: agrees, differs or not_run, and why.
 struct Canary {

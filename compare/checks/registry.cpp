@@ -6,11 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "compare/checks/whole_run.hpp"
 #include "compare/input/curves.hpp"
-#include "compare/input/energy_budget.hpp"
 #include "compare/metrics/base_pressure.hpp"
 #include "compare/metrics/bed_slope.hpp"
-#include "compare/metrics/conservation.hpp"
 #include "compare/metrics/decay_rate.hpp"
 #include "compare/metrics/deposit_shape.hpp"
 #include "compare/metrics/fluid_pressure.hpp"
@@ -23,25 +22,23 @@
 #include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
-namespace {
 
 Measured measured(std::optional<double> value, std::string_view why_undefined) {
   if (value) return {value, ""};
   return {std::nullopt, fmt::format("undefined: {}", why_undefined)};
 }
 
+namespace {
+
 // --- collapse ------------------------------------------------------------------------------------------
 
-Measured run_out_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run_out_curve(run), *p.at), "no front at that T");
+template <Curve (*curve)(const Run&)>
+Measured value_of(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(curve(run), *p.at), "no value at that time");
 }
 
-Measured run_out_dense_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run_out_dense_curve(run), *p.at), "no front at that T");
-}
-
-Measured run_out_quantile_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run_out_quantile_curve(run), *p.at), "no front at that T");
+Measured not_alone(const Run&, const Parameters&, const FindRun&) {
+  return {std::nullopt, "undefined: a whole curve is judged by a record only"};
 }
 
 Measured run_out_apart(const Run& run, const Parameters& p, const FindRun& find) {
@@ -76,10 +73,6 @@ Measured toe_drift(const Run& run, const Parameters& p, const FindRun&) {
   const auto move = largest_move(run.curve("front_quantile"), *p.window);
   if (!move) return {std::nullopt, "undefined: no front at the ends of the window"};
   return {*move / column_of(run).height, ""};
-}
-
-Measured base_pressure_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(excess_base_pressure(run), *p.at), "no base pressure at that time");
 }
 
 Measured base_pressure_peak(const Run& run, const Parameters& p, const FindRun&) {
@@ -122,6 +115,11 @@ Measured immersed_share(const Run& run, const Parameters& p, const FindRun&) {
 
 Measured period(const Run& run, const Parameters& p, const FindRun&) {
   const auto found = oscillation(run.curve("y_solid_mean"), *p.window);
+  return measured(found ? std::optional(found->period) : std::nullopt, "fewer than two cycles in the window");
+}
+
+Measured level_period(const Run& run, const Parameters& p, const FindRun&) {
+  const auto found = oscillation(run.curve("liquid_height_left"), *p.window);
   return measured(found ? std::optional(found->period) : std::nullopt, "fewer than two cycles in the window");
 }
 
@@ -206,52 +204,6 @@ Measured ergun(const Run& run, const Parameters&, const FindRun&) {
   return of_last_fields(run, ergun_ratio);
 }
 
-// --- volumes, bounds, speeds, cost ---------------------------------------------------------------------
-
-// The solver's own account covers every step, the series only the output times: the worse of the two counts.
-// Where something flows through the tank the account alone knows what has passed its sides.
-Measured volume_error_of(const Run& run, std::string_view column, std::string_view fact) {
-  const auto counted = run.facts.number(fact);
-  const bool through = std::ranges::any_of(run.scene.sides, [](const Side& side) {
-    return side.kind == SideKind::inlet || side.kind == SideKind::outlet;
-  });
-  const auto sampled = through ? std::optional(0.0) : volume_error(run.curve(column));
-  if (!sampled || !counted) return {std::nullopt, "undefined: no volume in the series or in run.json"};
-  return {std::max(*sampled, std::abs(*counted)), ""};
-}
-
-Measured solid_volume_error(const Run& run, const Parameters&, const FindRun&) {
-  return volume_error_of(run, "solid_volume", "solid_volume_error");
-}
-
-Measured liquid_volume_error(const Run& run, const Parameters&, const FindRun&) {
-  return volume_error_of(run, "liquid_volume", "liquid_volume_error");
-}
-
-Measured solid_fraction_max(const Run& run, const Parameters&, const FindRun&) {
-  const auto sampled = maximum(run.curve("f_s_max"));
-  const auto counted = run.facts.number("solid_fraction_max");
-  if (!sampled || !counted)
-    return {std::nullopt, "undefined: no solid fraction in the series or in run.json"};
-  return {std::max(*sampled, *counted), ""};
-}
-
-Measured solid_fraction_min(const Run& run, const Parameters&, const FindRun&) {
-  return measured(minimum(run.curve("f_s_min")), "no solid fraction in the series");
-}
-
-Measured liquid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(maximum(clip(run.curve("u_liquid_max"), *p.window)), "no speed in the window");
-}
-
-Measured fluid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(maximum(clip(run.curve("u_c_max"), *p.window)), "no speed in the window");
-}
-
-Measured solid_speed_max(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(maximum(clip(run.curve("u_s_dense_max"), *p.window)), "no dense bed in the window");
-}
-
 // --- the same run otherwise stated ------------------------------------------------------------------------
 
 Measured difference_of_series(const Run& run, const Parameters& p, const FindRun& find) {
@@ -264,50 +216,23 @@ Measured difference_of_series(const Run& run, const Parameters& p, const FindRun
   return {found->largest, where};
 }
 
-// --- energy and cost ---------------------------------------------------------------------------------------
-
-Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
-  return measured(closure_error(energy_budget(run), run.facts.number("energy_turnover")),
-                  "no energy budget in the series or in run.json");
-}
-
-Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
-  return measured(share_of("numerical", energy_budget(run), run.facts.number("energy_turnover")),
-                  "no energy budget in the series or in run.json");
-}
-
-// Both runs are of one scene, whose cells or steps differ by a factor of two.
-Measured energy_order(const Run& run, const Parameters& p, const FindRun& find) {
-  const Run* finer = find(*p.against);
-  if (!finer) return {std::nullopt, fmt::format("the run '{}' cannot be compared", *p.against)};
-  const auto last = [&](const Run& of) {
-    const Curve curve = of.curve(*p.column);
-    return curve.empty() ? 0.0 : curve.value.back();
-  };
-  const double coarse = last(run), fine = last(*finer);
-  return measured(coarse * fine > 0.0 ? std::optional(std::log2(coarse / fine)) : std::nullopt,
-                  "the two have not the same sign");
-}
-
-Measured warnings(const Run& run, const Parameters&, const FindRun&) {
-  return measured(run.facts.number("warnings"), "run.json states no warnings");
-}
-
-Measured core_seconds(const Run& run, const Parameters&, const FindRun&) {
-  return measured(run.facts.number("core_seconds"), "run.json states no cost");
-}
-
 constexpr Needs none{};
 constexpr Needs window_only{.window = true};
 constexpr Needs at_only{.at = true};
 
 constexpr std::array table{
-    MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at, l by f_s >= 0.30", at_only, run_out_at},
-    MetricEntry{"run_out_dense", "-", "the same by the paper's own front, f_s >= 0.95 f_s,min, at T = at",
-                at_only, run_out_dense_at},
-    MetricEntry{"run_out_quantile", "-",
-                "the same of the place that 99.5 % of the grains have not passed, at T = at", at_only,
-                run_out_quantile_at},
+    MetricEntry{"run_out", "-", "(l - l0) / h0 at T = at, l by f_s >= 0.30", at_only,
+                value_of<run_out_curve>},
+    MetricEntry{"run_out_dense", "-", "the same by the paper's own front, f_s >= 0.95 f_s,min", at_only,
+                value_of<run_out_dense_curve>},
+    MetricEntry{"run_out_quantile", "-", "the same of the place that 99.5 % of the grains have not passed",
+                at_only, value_of<run_out_quantile_curve>},
+    MetricEntry{"run_out_curve", "-", "rms over T of run_out's distance from the record's", window_only,
+                not_alone, run_out_curve},
+    MetricEntry{"run_out_dense_curve", "-", "the same of run_out_dense", window_only, not_alone,
+                run_out_dense_curve},
+    MetricEntry{"run_out_quantile_curve", "-", "the same of run_out_quantile", window_only, not_alone,
+                run_out_quantile_curve},
     MetricEntry{"run_out_distance", "-", "rms over T of the difference of the run-out curves of two runs",
                 Needs{.window = true, .against = true}, run_out_apart},
     MetricEntry{"run_out_exponent", "-",
@@ -323,7 +248,9 @@ constexpr std::array table{
                 "largest move over h0, in the window, of the place that 99.5 % of the grains have not passed",
                 window_only, toe_drift},
     MetricEntry{"base_pressure", "Pa", "excess pore pressure at the base at t = at", at_only,
-                base_pressure_at},
+                value_of<excess_base_pressure>},
+    MetricEntry{"base_pressure_curve", "Pa", "rms over t of base_pressure's distance from the record's",
+                window_only, not_alone, excess_base_pressure},
     MetricEntry{"base_pressure_peak", "Pa",
                 "excess pore pressure at the base, the value of largest magnitude", window_only,
                 base_pressure_peak},
@@ -339,6 +266,8 @@ constexpr std::array table{
                 immersed_share_free},
     MetricEntry{"period", "s", "period of the height of all solids, from crossings of its mean", window_only,
                 period},
+    MetricEntry{"level_period", "s", "period of the liquid's level at x = 0, from crossings of its mean",
+                window_only, level_period},
     MetricEntry{"decay_rate", "1/s",
                 "k of y = rest + A exp(-k t), y the height of all solids, rest its late mean, to half a cell "
                 "off rest",
@@ -392,12 +321,8 @@ constexpr std::array table{
     MetricEntry{"energy_numerical", "-",
                 "energy lost to numerics by the end over the energy turned over; negative: made", none,
                 energy_numerical},
-    MetricEntry{"energy_order", "-",
-                "power of 2 by which a column of the energy budget falls, at the end, to the run against it, "
-                "whose cells or steps are half as large",
-                Needs{.column = true, .against = true}, energy_order},
     MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
-    MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds},
+    MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds, true},
 };
 
 }  // namespace

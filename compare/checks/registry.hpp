@@ -17,19 +17,11 @@ struct Measured {
   std::string note;
 };
 
+// With the note "undefined: ..." where there is no value.
+Measured measured(std::optional<double> value, std::string_view why_undefined);
+
 // Finds another run by its id, or nullptr.
 using FindRun = std::function<const Run*(std::string_view)>;
-
-// Which of the parameters a metric needs; what is not needed is not allowed.
-struct Needs {
-  bool window = false;
-  bool at = false;
-  bool quiet = false;
-  bool level = false;
-  bool published = false;  // file and column
-  bool column = false;     // of series.csv
-  bool against = false;
-};
 
 struct MetricEntry {
   std::string_view name;
@@ -37,6 +29,9 @@ struct MetricEntry {
   std::string_view description;
   Needs needs;
   Measured (*function)(const Run&, const Parameters&, const FindRun&);
+  bool of_cost = false;  // a run that it is measured of must go alone
+  Curve (*curve)(const Run&) =
+      nullptr;  // of a metric that is judged by its distance from a record's (whole_curve.hpp)
 };
 
 std::span<const MetricEntry> metrics();

@@ -58,19 +58,14 @@ PlannedRun read_run(const TomlEntry& entry) {
 
 Parameters read_parameters(const TomlEntry& check, const MetricEntry& metric) {
   Parameters parameters;
-  const auto need = [&](bool needed, std::string_view key) {
-    if (needed && !check.has(key))
-      check.fail("metric", fmt::format("{} needs the key '{}'", metric.name, key));
-    if (!needed && check.has(key)) check.fail(key, fmt::format("{} takes no such parameter", metric.name));
-    return needed;
-  };
-  if (need(metric.needs.window, "window")) parameters.window = check.window("window");
-  need(metric.needs.at, "at");  // read by its caller: it may be a list
-  if (need(metric.needs.quiet, "quiet")) parameters.quiet = check.non_negative("quiet");
-  if (need(metric.needs.level, "level")) parameters.level = check.number("level");
-  if (need(metric.needs.published, "published")) parameters.published = check.text("published");
-  if (need(metric.needs.published || metric.needs.column, "column")) parameters.column = check.text("column");
-  if (need(metric.needs.against, "against")) parameters.against = check.text("against");
+  for (const ParameterEntry& parameter : granvof::compare::parameters()) {
+    const bool needed = metric.needs.*parameter.needed;
+    if (needed && !check.has(parameter.key))
+      check.fail("metric", fmt::format("{} needs the key '{}'", metric.name, parameter.key));
+    if (!needed && check.has(parameter.key))
+      check.fail(parameter.key, fmt::format("{} takes no such parameter", metric.name));
+    if (needed) parameter.read(check, parameters);
+  }
   return parameters;
 }
 
@@ -83,7 +78,7 @@ Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
   entry.allow_only({"kind", "source", "value", "formula", "record", "band"});
   Reference reference;
   reference.kind = entry.one_of("kind", {ReferenceKind::theory, ReferenceKind::published, ReferenceKind::dem,
-                                         ReferenceKind::regression});
+                                         ReferenceKind::aim, ReferenceKind::regression});
   const int given = int{entry.has("value")} + int{entry.has("formula")} + int{entry.has("record")};
   const bool own_record = given == 0 && reference.kind == ReferenceKind::dem;
   if (given != 1 && !own_record)
@@ -111,6 +106,8 @@ Reference read_reference(const TomlEntry& entry, const MetricEntry& metric) {
     reference.source = entry.text("source");
   else if (reference.source.empty() && !own_record)
     entry.fail("", "the key 'source' is missing: where does the value come from?");
+  if (metric.curve && (reference.kind != ReferenceKind::dem || reference.value || reference.formula))
+    entry.fail("kind", fmt::format("{} is judged by a record alone: kind DEM, without value", metric.name));
   if (entry.has("band")) reference.band = entry.non_negative("band");
   return reference;
 }
@@ -133,10 +130,7 @@ Tolerance read_tolerance(const TomlEntry& entry, const MetricEntry& metric) {
 }
 
 std::string id_of(const Check& check) {
-  std::string id = fmt::format("{}.{}", check.run, check.metric);
-  if (check.parameters.at) id += fmt::format("@{}", *check.parameters.at);
-  if (check.parameters.against) id += fmt::format("-{}", *check.parameters.against);
-  if (check.parameters.column) id += fmt::format("-{}", *check.parameters.column);
+  std::string id = fmt::format("{}.{}", check.run, labelled(check.metric, check.parameters));
   if (!check.label.empty()) id += fmt::format(".{}", check.label);
   return id + fmt::format(".{}", name_of(check.reference.kind));
 }
@@ -243,9 +237,10 @@ std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<st
 // A row for each of its references, instants and runs, and of the runs beside those.
 std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedRun>& runs,
                               const std::vector<Cause>& causes) {
-  entry.allow_only({"run", "metric", "window", "at", "quiet", "level", "published", "column", "against",
-                    "reference", "relation", "tolerance", "asserted", "frequency", "expected_failure",
-                    "label"});
+  std::vector<std::string_view> keys{"run",      "metric",    "reference",        "relation", "tolerance",
+                                     "asserted", "frequency", "expected_failure", "label"};
+  for (const ParameterEntry& parameter : parameters()) keys.push_back(parameter.key);
+  entry.allow_only(keys);
   Check check;
   check.line = entry.line();
   check.metric = entry.text("metric");

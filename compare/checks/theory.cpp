@@ -66,12 +66,28 @@ std::optional<double> channel_speed(const Run& run, const Parameters&) {
   return 1.5 * run.scene.sides[left].inflow.speed;
 }
 
-constexpr std::array<FormulaEntry, 7> table{{
+// Of the first mode between two walls; mean depth from the two ends at the start.
+std::optional<double> sloshing_period(const Run& run, const Parameters&) {
+  const Curve left_end = run.curve("liquid_height_left"), right_end = run.curve("liquid_height_right");
+  if (left_end.empty() || right_end.empty()) return std::nullopt;
+  const Scene& scene = run.scene;
+  const double liquid = scene.liquid.density, gas = scene.gas.density, k = std::numbers::pi / scene.tank[0];
+  const double depth = 0.5 * (left_end.value.front() + right_end.value.front());
+  const double omega_squared = scene.gravity * k * (liquid - gas) /
+                               (liquid / std::tanh(k * depth) + gas / std::tanh(k * (scene.tank[1] - depth)));
+  return 2.0 * std::numbers::pi / std::sqrt(omega_squared);
+}
+
+constexpr std::array<FormulaEntry, 8> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
      "T = 2 pi sqrt(rho_s H / (rho_l g)) (paper, section 4.3), H = dropped height * f_s / f_s,min",
      floating_period},
+    {"sloshing_period", "s",
+     "T = 2 pi / omega, omega^2 = g k (rho_l - rho_g) / (rho_l coth(k h_l) + rho_g coth(k h_g)), k = pi / L "
+     "(Lamb, Hydrodynamics, art. 231)",
+     sloshing_period},
     {"floating_decay_rate", "1/s",
      "k = omega^2 / (2 gamma), omega^2 = rho_l g / (rho_s H), 2 gamma = beta / (f_s f_c rho_l), beta of (8) "
      "for "

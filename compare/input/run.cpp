@@ -55,6 +55,9 @@ RunFacts facts_of(const nlohmann::json& json) {
   if (const auto exit = json.find("exit"); exit != json.end() && exit->is_object()) {
     facts.exit = text_of(*exit, "state");
     facts.reason = text_of(*exit, "reason");
+    facts.kind = text_of(*exit, "kind");
+    if (facts.kind.empty())
+      facts.kind = facts.exit == "failed" ? "error" : facts.exit == "stopped" ? "signal" : facts.exit;
   }
   if (const auto host = json.find("host"); host != json.end() && host->is_object())
     facts.host = text_of(*host, "cpu_model");

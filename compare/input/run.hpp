@@ -23,6 +23,7 @@ namespace granvof::compare {
 struct RunFacts {
   std::string scene, version, commit, case_hash, resolved_case, host, date;
   std::string exit, reason;               // "finished", "failed", ... and why
+  std::string kind;                       // exit.kind; of earlier versions, what follows from the state
   std::map<std::string, double> numbers;  // core_seconds, cells, steps, ... and the program's monitors
   std::vector<LedgerTerm> ledger;         // of its energy; empty: it states none
   std::optional<Grid3> grid;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "solver/output/atomic_file.hpp"
+#include "solver/output/output_error.hpp"
+
 namespace granvof::compare {
 namespace {
 
@@ -12,7 +15,8 @@ toml::table parsed(Parse parse, std::string_view name) {
   try {
     return parse();
   } catch (const toml::parse_error& error) {
-    throw TableError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+    const auto& at = error.source().begin;
+    throw TableError(fmt::format("{}:{}:{}: {}", name, at.line, at.column, error.description()));
   }
 }
 
@@ -24,10 +28,11 @@ toml::table parse_toml(std::string_view text, std::string_view name) {
 
 toml::table parse_toml_file(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::error_code unknown;
-  if (std::filesystem::is_directory(file, unknown))
-    throw TableError(fmt::format("{}: it is a directory", name));
-  return parsed([&] { return toml::parse_file(name); }, name);
+  try {
+    return parse_toml(read_file(file), name);
+  } catch (const OutputError& error) {
+    throw TableError(fmt::format("{}: {}", name, error.cause()));
+  }
 }
 
 void TomlEntry::fail(std::string_view key, std::string_view what) const {
@@ -37,7 +42,7 @@ void TomlEntry::fail(std::string_view key, std::string_view what) const {
       fmt::format("{}:{}: {}{}: {}", file_, line, path_, key.empty() ? "" : fmt::format(".{}", key), what));
 }
 
-void TomlEntry::allow_only(std::initializer_list<std::string_view> keys) const {
+void TomlEntry::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
       fail(key.str(), fmt::format("unknown key; allowed: {}", fmt::join(keys, ", ")));

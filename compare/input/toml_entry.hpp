@@ -30,7 +30,7 @@ class TomlEntry {
 
   [[noreturn]] void fail(std::string_view key, std::string_view what) const;
 
-  void allow_only(std::initializer_list<std::string_view> keys) const;
+  void allow_only(const std::vector<std::string_view>& keys) const;
 
   bool has(std::string_view key) const { return table_.contains(key); }
   int line() const { return static_cast<int>(table_.source().begin.line); }

@@ -19,11 +19,15 @@ constexpr std::array table{
     Entry{"run_out", "front_dense [m]", true},
     Entry{"run_out_dense", "front_dense [m]", true},
     Entry{"run_out_quantile", "front_quantile [m]", true},
+    Entry{"run_out_curve", "front_dense [m]", true},
+    Entry{"run_out_dense_curve", "front_dense [m]", true},
+    Entry{"run_out_quantile_curve", "front_quantile [m]", true},
     Entry{"front", "front_dense [m]", false},
     Entry{"grain_front", "front_dense [m]", false},
     Entry{"solid_height", "y_solid_mean [m]", false},
     Entry{"interface_height", "interface_height [m]", false},
     Entry{"base_pressure", "excess_base_pressure [Pa]", false},
+    Entry{"base_pressure_curve", "excess_base_pressure [Pa]", false},
     Entry{"base_pressure_peak", "excess_base_pressure [Pa]", false},
 };
 

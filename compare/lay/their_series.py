@@ -12,6 +12,8 @@ import math
 import re
 from dataclasses import dataclass, field
 
+from granvof_files import required
+
 # Unit -> the SI unit, and what to multiply by.
 UNITS = {
     "s": ("s", 1.0), "ms": ("s", 1e-3), "us": ("s", 1e-6), "min": ("s", 60.0),
@@ -64,7 +66,7 @@ def read(path, names=None):
 
 def text_of(path):
     try:
-        if path.stat().st_size > MOST_BYTES:
+        if required(path).stat().st_size > MOST_BYTES:
             raise SeriesError(f"{path}: larger than {MOST_BYTES >> 20} MB")
         data = path.read_bytes()
     except OSError as error:

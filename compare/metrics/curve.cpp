@@ -56,4 +56,22 @@ std::optional<double> minimum(const Curve& curve) {
   return *std::min_element(curve.value.begin(), curve.value.end());
 }
 
+Curve mean_curve(const std::vector<Curve>& curves) {
+  Curve mean;
+  mean.widest = curves.front().widest;
+  for (const double x : curves.front().time) {
+    double sum = 0.0;
+    bool covered = true;
+    for (const Curve& curve : curves) {
+      const auto value = value_at(curve, x);
+      covered = covered && value.has_value();
+      sum += value.value_or(0.0);
+    }
+    if (!covered) continue;
+    mean.time.push_back(x);
+    mean.value.push_back(sum / static_cast<double>(curves.size()));
+  }
+  return mean;
+}
+
 }  // namespace granvof::compare

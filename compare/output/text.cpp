@@ -26,10 +26,7 @@ std::string short_number(const std::optional<double>& value) {
 }  // namespace
 
 std::string metric_label(const Check& check) {
-  std::string label = check.metric;
-  if (check.parameters.at) label += fmt::format("@{}", *check.parameters.at);
-  if (check.parameters.against) label += fmt::format("-{}", *check.parameters.against);
-  if (check.parameters.column) label += fmt::format("-{}", *check.parameters.column);
+  std::string label = labelled(check.metric, check.parameters);
   if (!check.label.empty()) label += fmt::format(" ({})", check.label);
   return label;
 }

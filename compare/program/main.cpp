@@ -1,5 +1,5 @@
 // granvof-compare: judges runs by the table of checks, and studies what a scene needs. Exit code 0: nothing
-// unexpected; 1: an unexpected verdict; 2: bad input.
+// unexpected; 1: an unexpected verdict, or a run that failed; 2: bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -15,17 +15,22 @@
 #include "compare/input/name.hpp"
 #include "compare/lay/lay.hpp"
 #include "compare/output/write.hpp"
+#include "compare/program/run_command.hpp"
 #include "compare/program/study_commands.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace {
 
 using namespace granvof;
 using namespace granvof::compare;
+
+constexpr std::size_t longest_message = 1500;  // bytes; it holds the name of a directory
 
 struct Options {
   Paths paths{"out/runs", "cases", "reference/results"};
@@ -34,6 +39,7 @@ struct Options {
   Frequency frequency = Frequency::verify;
   Canary canary;
   std::vector<std::string> left_out;
+  bool as_orders = false;
 
   LeftOut left() const {
     const auto names = [this](const char* name) {
@@ -52,6 +58,11 @@ const std::map<std::string, Verdict> canary_verdicts{
     {"agrees", Verdict::agrees}, {"differs", Verdict::differs}, {"not run", Verdict::not_run}};
 
 int print_plan(const Options& options) {
+  if (options.as_orders) {
+    for (const Order& order : orders_of(read_table(options.table), options.frequency, options.paths))
+      fmt::print("{}\n", order_line(order));
+    return 0;
+  }
   for (const PlannedRun& run : due_runs(read_table(options.table), options.frequency)) {
     fmt::print("{}\t{}", run.id, run.case_name);
     for (const std::string& assignment : run.set) fmt::print("\t{}", assignment);
@@ -126,9 +137,15 @@ void add_common(CLI::App& command, Options& options) {
       ->transform(CLI::CheckedTransformer(frequencies));
 }
 
+std::string failure_text(const CLI::App*, const CLI::Error& error) {
+  return fmt::format("granvof-compare: {} (granvof-compare --help says what is allowed)\n",
+                     case_file::printable(error.what(), longest_message));
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Judges runs by the table of checks, and studies what a scene needs"};
   app.require_subcommand(1);
+  app.failure_message(failure_text);
   Options options;
 
   CLI::App* check =
@@ -151,6 +168,9 @@ int parse_and_run(int argc, char** argv) {
   CLI::App* plan =
       app.add_subcommand("plan", "print the runs the table needs: id, case and overrides, tab-separated");
   add_common(*plan, options);
+  plan->add_flag("--orders", options.as_orders, "as orders of `run`, into --runs");
+  plan->add_option("--runs", options.paths.runs, "run directories")->capture_default_str();
+  plan->add_option("--cases", options.paths.cases, "case files")->capture_default_str();
 
   LayOptions laid;
   CLI::App* lay_command =
@@ -175,14 +195,17 @@ int parse_and_run(int argc, char** argv) {
   extract->add_option("--set", laid.set, "overrides of the case")->allow_extra_args(false);
   extract->add_option("--out", laid.out, "the series.csv")->required();
 
+  RunCommand engine(app);
   StudyCommands study(app);
 
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (*extract) return extract_series(laid, options.paths);
+  if (engine.parsed()) return engine.run();
   if (study.parsed()) return study.run();
   if (*lay_command) return lay_beside(laid, options.paths);
   return *plan ? print_plan(options) : check_runs(options);
@@ -191,12 +214,15 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams_taken();
   try {
     const int code = parse_and_run(argc, argv);
     require_stdout_written();
     return code;
-  } catch (const std::exception& error) {
+  } catch (const CaseError& error) {  // a line for each fault, made printable where it was found
     fmt::print(stderr, "granvof-compare: {}\n", error.what());
-    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "granvof-compare: {}\n", case_file::printable(error.what(), longest_message));
   }
+  return 2;
 }

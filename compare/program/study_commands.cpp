@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "compare/checks/table.hpp"
+#include "compare/program/run_command.hpp"
 #include "compare/study/ablate.hpp"
 #include "compare/study/advise_scene.hpp"
 #include "compare/study/budget.hpp"
@@ -24,13 +25,6 @@ namespace granvof::compare {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Built beside this program.
-fs::path default_solver() {
-  std::error_code unknown;
-  const fs::path self = fs::read_symlink("/proc/self/exe", unknown);
-  return unknown ? fs::path("granvof") : self.parent_path().parent_path() / "solver/granvof";
-}
 
 void write(const fs::path& directory, const std::string& name, const std::string& text) {
   fs::create_directories(directory);
@@ -91,6 +85,22 @@ void require_different_grids(const AdviseInput& input) {
   }
 }
 
+// Makes nothing: prints what it is asked for and is not there yet, as orders of the run engine.
+class PlanningRunner : public Runner {
+ public:
+  explicit PlanningRunner(CachedRunner& made) : made_(made) {}
+  Outcome run(const Job& job) override {
+    if (!made_.has(job)) fmt::print("{}\n", order_line(made_.order_of(job)));
+    Outcome outcome;
+    outcome.failure = "only planned";
+    return outcome;
+  }
+  bool has(const Job& job) override { return made_.has(job); }
+
+ private:
+  CachedRunner& made_;
+};
+
 // What a run may cost, and what was known before it.
 void print_plan(const Plan& plan) {
   fmt::print(stderr, "plan, at most (estimated, on one core):\n");
@@ -136,6 +146,7 @@ struct StudyCommands::Options {
   CLI::App* ablate = nullptr;
   CLI::App* advise = nullptr;
   CLI::App* charts = nullptr;
+  bool plan_only = false;
 
   void add_runner(CLI::App& command) {
     command.add_option("--solver", runner.program, "the program granvof")->capture_default_str();
@@ -149,6 +160,10 @@ struct StudyCommands::Options {
     command.add_option("--study", study, "methods and parts of the model")->capture_default_str();
     command.add_option("--records", records, "recorded DEM-VOF results")->capture_default_str();
     command.add_option("--out", out, "where the results go");
+  }
+  void add_plan(CLI::App& command) {
+    command.add_flag("--plan", plan_only,
+                     "run nothing: print what is to be made, for `granvof-compare run` (docs/run-engine.md)");
   }
   void add_case(CLI::App& command) {
     command.add_option("case", case_file, "case file (TOML)")->required()->type_name("CASE");
@@ -173,6 +188,11 @@ struct StudyCommands::Options {
         looked_at.push_back(check_of(quantity, moved, rows));
     }
     CachedRunner made(runner);
+    if (plan_only) {
+      PlanningRunner planned(made);
+      for (const Job& job : jobs_of_ablation(case_file, set, chosen_parts(read, parts))) planned.run(job);
+      return 0;
+    }
     const AblateReport report = granvof::compare::ablate(case_file, set, chosen_parts(read, parts), looked_at,
                                                          records, made, curves, moved);
     const fs::path directory = out.empty() ? fs::path("out/ablate") / scene.name : out;
@@ -231,10 +251,13 @@ struct StudyCommands::Options {
         throw std::runtime_error(
             fmt::format("--scene: '{}' given; {} has no chart of it", scene, study.string()));
     CachedRunner made(runner);
+    PlanningRunner planned(made);
     std::vector<ChartResult> results;
     for (const Chart& chart : read.charts)
       if (scenes.empty() || std::find(scenes.begin(), scenes.end(), chart.case_name) != scenes.end())
-        results.push_back(make_chart(chart, read, cases, records, made));
+        results.push_back(
+            make_chart(chart, read, cases, records, plan_only ? static_cast<Runner&>(planned) : made));
+    if (plan_only) return 0;
     const fs::path directory = out.empty() ? fs::path("out/charts") : out;
     write(directory, "charts.csv", charts_csv(results));
     write(directory, "points.json", charts_json(results, read, iso_date_now()));
@@ -250,6 +273,7 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
       "run a scene with each part of the model removed: what it does to every metric and to the cost");
   options_->add_case(*options_->ablate);
   options_->add_runner(*options_->ablate);
+  options_->add_plan(*options_->ablate);
   options_->ablate->add_option("--part", options_->parts, "only these parts (may be given again)")
       ->allow_extra_args(false);
   options_->ablate
@@ -298,6 +322,7 @@ StudyCommands::StudyCommands(CLI::App& app) : options_(std::make_shared<Options>
   options_->charts =
       app.add_subcommand("charts", "error against cost: all methods on all grids of the study");
   options_->add_runner(*options_->charts);
+  options_->add_plan(*options_->charts);
   options_->charts->add_option("--scene", options_->scenes, "only this chart (may be given again)")
       ->allow_extra_args(false);
   options_->charts->add_option("--cases", options_->cases, "case files")->capture_default_str();

@@ -14,8 +14,11 @@ import math
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
+from complaint import complain, given_path  # noqa: E402
+from granvof_files import required  # noqa: E402
 from report import style  # noqa: E402
 from report.results import Damaged, read_json  # noqa: E402
 from report.style import plt  # noqa: E402
@@ -224,21 +227,21 @@ def section(content, names, ablated, advised=()):
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--charts", type=Path, required=True, help="directory with points.json")
-    parser.add_argument("--ablations", type=Path, help="directory of the ablations (default: ablate beside it)")
-    parser.add_argument("--advice", type=Path, help="directory of the advice (default: advise beside it)")
-    parser.add_argument("--keep", type=Path, help="copy what was drawn from to this directory")
-    parser.add_argument("--picture", type=Path, help="write the picture of one scene here too (PNG, few bytes)")
+    parser.add_argument("--charts", type=given_path, required=True, help="directory with points.json")
+    parser.add_argument("--ablations", type=given_path, help="directory of the ablations (default: ablate beside it)")
+    parser.add_argument("--advice", type=given_path, help="directory of the advice (default: advise beside it)")
+    parser.add_argument("--keep", type=given_path, help="copy what was drawn from to this directory")
+    parser.add_argument("--picture", type=given_path, help="write the picture of one scene here too (PNG, few bytes)")
     parser.add_argument("--scene", default="s1", help="the scene of --picture (s1)")
     options = parser.parse_args(arguments)
     try:
         content = load(options.charts)
         if content is None:
-            print(f"charts: no points.json in {options.charts}; run `make charts` first", file=sys.stderr)
+            complain(f"charts: no points.json in {options.charts}; run `make charts` first")
             return 2
         return write(content, options)
     except Damaged as error:
-        print(f"charts: {error}", file=sys.stderr)
+        complain(f"charts: {error}")
         return 2
 
 
@@ -253,7 +256,7 @@ def write(content, options):
     if options.picture:
         name = f"error-cost-{options.scene}"
         if name not in names:
-            print(f"charts: no chart of {options.scene} in {options.charts}", file=sys.stderr)
+            complain(f"charts: no chart of {options.scene} in {options.charts}")
             return 2
         shrink(options.charts / f"{name}.png", options.picture)
     return 0
@@ -275,7 +278,7 @@ def from_kept(kept, directory):
         return False
     make_section(directory, content, kept / "ablate", kept / "advise")
     path = directory / "charts.json"
-    shown = json.loads(path.read_text())
+    shown = json.loads(required(path).read_text())
     shown["title"] += " (kept results)"
     shown["text"].insert(0, f"Not run here: results kept in the repository, {made(content)}. `make charts` runs them anew.")
     path.write_text(json.dumps(shown, indent=1) + "\n")
@@ -310,10 +313,10 @@ def keep(options, beside):
     write_kept(options.keep / "charts/points.json", merged(load(options.charts), load(options.keep / "charts")))
     for source, target in [(options.ablations or beside / "ablate", "ablate"), (options.advice or beside / "advise", "advise")]:
         for path in sorted(source.glob("**/*.json")):
-            write_kept(options.keep / target / path.relative_to(source), json.loads(path.read_text()))
+            write_kept(options.keep / target / path.relative_to(source), json.loads(required(path).read_text()))
     stability = beside / "stability/stability.json"
     if stability.exists():
-        write_kept(options.keep / "stability/stability.json", json.loads(stability.read_text()))
+        write_kept(options.keep / "stability/stability.json", json.loads(required(stability).read_text()))
 
 
 def shrink(source, target):

@@ -1,7 +1,7 @@
 """The plots, in the form of the paper's figures. Every curve comes computed from granvof-compare; nothing here
 defines a metric. Each function gives back the names of the plots it wrote, none if it has nothing to show."""
 
-from report import energy, stability
+from report import energy, ledgers, stability
 from report.beads import dambreak_beads_plot, water_entry_plot
 from report.collapse import base_pressure_plot, floating_run_out_plot, run_out_plot, viscous_plot
 from report.floating import centre_plot, floating_plot
@@ -66,6 +66,8 @@ def caption(name):
         return stability.CAPTION
     if name.startswith("energy-"):
         return energy.caption(name.removeprefix("energy-"))
+    if name.startswith("ledger-"):
+        return ledgers.caption(name.removeprefix("ledger-"))
     if name.startswith("plan-"):
         return f"{name.removeprefix('plan-')}: the 3D scene from above; colour: depth of the solid, of grains without pores."
     if name.startswith("snapshots-"):
@@ -88,6 +90,7 @@ def draw_all(results, directory, kept=None):
     pictured = [run for run in results.curves if run in on_its_own(results)]
     for run in pictured:
         names += results.shown(lambda: energy.energy_plot(results, run, directory)) or []
+        names += results.shown(lambda: ledgers.ledger_plot(results, run, directory)) or []
     for run in pictured:
         names += results.shown(lambda: snapshot_plot(results, run, directory)) or []
         names += results.shown(lambda: plan_plot(results, run, directory)) or []

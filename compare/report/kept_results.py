@@ -2,6 +2,7 @@
 
 import json
 
+from granvof_files import required
 from report import results
 
 ROW = ("id", "scene", "metric", "value", "unit", "reference", "reference_kind", "reference_source", "tolerance", "verdict",
@@ -41,7 +42,7 @@ def merged(kept, verified):
 
 
 def read(path):
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {"rows": [], "costs": {}}
+    return json.loads(required(path).read_text(encoding="utf-8")) if path.exists() else {"rows": [], "costs": {}}
 
 
 def write(path, kept):

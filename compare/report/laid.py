@@ -4,13 +4,14 @@ import json
 
 import numpy as np
 
+from granvof_files import required
 from report import style
 from report.style import plt
 
 
 def draw(directory):
     """Names of the plots written into `directory`."""
-    laid = json.loads((directory / "lay.json").read_text())
+    laid = json.loads(required(directory / "lay.json").read_text())
     names = []
     for curve in laid["curves"]:
         figure, axis = plt.subplots(figsize=(5.6, 3.8))

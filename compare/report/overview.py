@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+from granvof_files import required
 from report import figures
 
 # The worst first.
@@ -74,7 +75,7 @@ def cost_ratio(results, run, case):
     theirs = []
     for record in results.records.get(case, {}).values():
         try:
-            theirs.append(json.loads((Path(record["directory"]) / "record.json").read_text(encoding="utf-8"))["core_seconds"])
+            theirs.append(json.loads(required(Path(record["directory"]) / "record.json").read_text(encoding="utf-8"))["core_seconds"])
         except (OSError, ValueError, KeyError, TypeError):
             continue
     return sum(theirs) / len(theirs) / ours if ours and theirs else None

@@ -5,24 +5,24 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
-from report import charts, figures, kept_results, page, results, sections  # noqa: E402
-
 ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
+
+from complaint import complain, given_path  # noqa: E402
+from report import charts, figures, kept_results, page, results, sections  # noqa: E402
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--verify", type=Path, required=True, help="directory with results.json and curves.json")
-    parser.add_argument("--cases", type=Path, default=ROOT / "cases", help="case files, with published/")
-    parser.add_argument("--kept", type=Path, default=ROOT / "compare/kept", help="results of earlier studies, for what was not run")
+    parser.add_argument("--verify", type=given_path, required=True, help="directory with results.json and curves.json")
+    parser.add_argument("--cases", type=given_path, default=ROOT / "cases", help="case files, with published/")
+    parser.add_argument("--kept", type=given_path, default=ROOT / "compare/kept", help="results of earlier studies, for what was not run")
     options = parser.parse_args(arguments)
     try:
         loaded = results.load(options.verify, options.cases)
         return write(loaded, options)
     except results.Damaged as error:
-        print(f"report: {error}", file=sys.stderr)
+        complain(f"report: {error}")
         return 2
 
 
@@ -32,14 +32,15 @@ def write(loaded, options):
     directories = {"charts": out / "charts"}
     if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts"):
         directories["charts"] = options.verify / "kept/charts"
-    if not (out / "stability/stability.json").exists():
-        directories["stability"] = options.kept / "stability"
+    for name in ("stability", "mutate"):
+        if not (out / name / f"{name}.json").exists():
+            directories[name] = options.kept / name
     others = sections.read_all(out, directories)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     kept = kept_results.read(options.kept / "verify/results.json")
     (options.verify / "report.html").write_text(page.render(loaded, plots, others, kept), encoding="utf-8")
     for sentence in loaded.damaged:
-        print(f"report: {sentence}", file=sys.stderr)
+        complain(f"report: {sentence}")
     return 1 if loaded.damaged else 0
 
 

@@ -4,8 +4,9 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+from granvof_files import fields_of, is_there, required
 
 
 class Damaged(ValueError):
@@ -22,7 +23,7 @@ OF_READING = (OSError, ValueError, KeyError, IndexError, TypeError, AttributeErr
 def read_json(path, *needed):
     """A JSON object that has these keys. Damaged where it is none."""
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(required(path).read_text(encoding="utf-8"))
         if not isinstance(content, dict):
             raise ValueError("no JSON object")
         for key in needed:
@@ -62,7 +63,7 @@ class Results:
         if not path.exists():
             return None
         try:
-            lines = [line.split("\t") for line in path.read_text().splitlines() if line and not line.startswith("#")]
+            lines = [line.split("\t") for line in required(path).read_text().splitlines() if line and not line.startswith("#")]
             index = [name.split(" [")[0] for name in lines[0]].index(column)
             values = np.array([[float(line[0]), float(line[index])] for line in lines[1:]])
             return values[:, 0], values[:, 1]
@@ -174,10 +175,10 @@ def across(field, dimensions):
 def instants(run):
     """Yields (time, (f_s, alpha, phi)) as arrays (z, y, x), None for a field that was not written."""
     path = Path(run["directory"]) / "fields.h5"
-    if not path.exists():
+    if not is_there(path):
         return
     try:
-        with h5py.File(path, "r") as file:
+        with fields_of(path) as file:
             groups = [file[name] for name in file if "f_s" in file[name]]
             for group in sorted(groups, key=lambda g: float(g.attrs["time"])):
                 yield float(group.attrs["time"]), tuple(np.asarray(group[name]) if name in group else None

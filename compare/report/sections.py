@@ -13,10 +13,11 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from granvof_files import required
 from report.embedded import encoded
 from report.results import Damaged
 
-NAMES = ("charts", "stability", "energy", "faults")  # in the order of the page
+NAMES = ("charts", "stability", "energy", "faults", "mutate")  # in the order of the page
 
 
 @dataclass
@@ -39,7 +40,7 @@ def read_all(out, directories=None):
 def read(directory):
     source = directory / f"{directory.name}.json"
     try:
-        given = json.loads(source.read_text(encoding="utf-8"))
+        given = json.loads(required(source).read_text(encoding="utf-8"))
         figures = given.get("figures", [{"file": path.name, "caption": path.stem.replace("-", " ")}
                                         for path in sorted(directory.glob("*.png"))])
         return Section(directory.name, given["title"], listed(given.get("text", [])),
@@ -54,7 +55,7 @@ def read(directory):
 def figure(directory, entry):
     path = directory / Path(entry["file"]).name
     return {"name": f"{directory.name}-{path.stem}", "caption": entry["caption"],
-            "data": encoded(path.read_bytes())}
+            "data": encoded(required(path).read_bytes())}
 
 
 def listed(text):

@@ -17,8 +17,10 @@ from pathlib import Path
 from statistics import mean
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "compare"))
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
+from complaint import complain, given_path  # noqa: E402
+from granvof_files import required  # noqa: E402
 from report import charts, kept_results  # noqa: E402
 
 AGREES = ("agrees", "within band")
@@ -96,7 +98,7 @@ def preset_of(run):
 
 def dem_cost(scene, results=ROOT / "reference/results"):
     """Mean core-seconds of the records of a scene, None where there is none."""
-    costs = [json.loads(path.read_text(encoding="utf-8"))["core_seconds"]
+    costs = [json.loads(required(path).read_text(encoding="utf-8"))["core_seconds"]
              for path in sorted((results / scene).glob("seed*/record.json"))]
     return mean(costs) if costs else None
 
@@ -243,15 +245,15 @@ def check(root, kept, verified):
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--verify", type=Path, help="directory with results.json of `make verify`")
+    parser.add_argument("--verify", type=given_path, help="directory with results.json of `make verify`")
     parser.add_argument("--check", action="store_true", help="only say whether the tables are current")
-    parser.add_argument("--root", type=Path, default=ROOT, help="the repository")
+    parser.add_argument("--root", type=given_path, default=ROOT, help="the repository")
     options = parser.parse_args(arguments)
     path = options.root / "compare/kept/verify/results.json"
     kept, verified = kept_results.read(path), None
     try:
         if options.verify:
-            verified = json.loads((options.verify / "results.json").read_text(encoding="utf-8"))
+            verified = json.loads(required(options.verify / "results.json").read_text(encoding="utf-8"))
         if options.check:
             problems = check(options.root, kept, verified)
             print("\n".join(problems) or "tables and kept results agree")
@@ -260,7 +262,7 @@ def main(arguments):
             kept = kept_results.merged(kept, verified)
         texts = render(options.root, kept)
     except (OSError, ValueError) as error:
-        print(f"trust_table: {error}", file=sys.stderr)
+        complain(f"trust_table: {error}")
         return 2
     if verified:
         kept_results.write(path, kept)

@@ -168,7 +168,7 @@ std::vector<Check> metrics_of_scene(const Table& table, const std::string& scene
   std::vector<Check> chosen;
   std::set<std::string> seen;
   for (const Check& check : table.checks) {
-    if (check.run != scene || check.parameters.against || check.metric == "core_seconds") continue;
+    if (check.run != scene || check.parameters.against || find_metric(check.metric)->of_cost) continue;
     if (check.reference.kind == ReferenceKind::regression) continue;
     if (seen.insert(metric_label(check)).second) chosen.push_back(check);
   }
@@ -227,6 +227,21 @@ AblateReport ablate(const fs::path& case_file, const std::vector<std::string>& s
     report.rows.push_back(std::move(row));
   }
   return report;
+}
+
+std::vector<Job> jobs_of_ablation(const fs::path& case_file, const std::vector<std::string>& set,
+                                  const std::vector<Part>& parts) {
+  const Scene scene = load_scene(case_file, set);
+  std::vector<Job> jobs{{case_file, set}};
+  for (const Part& part : parts_for(parts, scene)) {
+    std::vector<std::string> all = set;
+    try {
+      for (const std::string& assignment : overrides_of(part, scene)) all.push_back(assignment);
+      jobs.push_back({case_file, all});
+    } catch (const std::invalid_argument&) {  // it does not apply to the scene
+    }
+  }
+  return jobs;
 }
 
 }  // namespace granvof::compare

@@ -80,6 +80,10 @@ AblateReport ablate(const std::filesystem::path& case_file, const std::vector<st
                     const std::filesystem::path& records, Runner& runner,
                     const std::vector<Quantity>& curves = {}, double curve_tolerance = 0.0);
 
+// The runs of that, the full model first.
+std::vector<Job> jobs_of_ablation(const std::filesystem::path& case_file, const std::vector<std::string>& set,
+                                  const std::vector<Part>& parts);
+
 std::string ablate_text(const AblateReport& report);
 // Columns: part,metric,value,change,unit,tolerance,beyond,core_seconds,core_s_per_s,work_units_per_s,failure.
 std::string ablate_csv(const AblateReport& report);

@@ -1,9 +1,6 @@
 #include "compare/study/budget.hpp"
 
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <stdexcept>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -12,17 +9,6 @@
 #include "solver/scene/load_scene.hpp"
 
 namespace granvof::compare {
-namespace {
-
-struct Unit {
-  std::string_view name;
-  double seconds;
-};
-
-constexpr std::array units{Unit{"min", 60.0}, Unit{"s", 1.0}, Unit{"h", 3600.0}};
-
-}  // namespace
-
 double Plan::core_seconds() const {
   double sum = 0.0;
   for (const PlannedGrid& grid : grids) sum += grid.core_seconds;
@@ -32,8 +18,7 @@ double Plan::core_seconds() const {
 double estimated_seconds(const Job& job, Runner& runner) {
   if (runner.has(job)) return 0.0;
   const double once = estimate_cost(load_scene(job.case_file, job.set)).core_seconds;
-  const RunnerOptions usual;
-  return once < usual.repeat_below ? timings_of_a_cheap_run * once : once;
+  return once < cheap_run ? timings_of_a_cheap_run * once : once;
 }
 
 Plan plan_of(const std::vector<double>& cells, const std::vector<std::vector<Job>>& jobs, Runner& runner) {
@@ -48,23 +33,6 @@ Plan plan_of(const std::vector<double>& cells, const std::vector<std::vector<Job
     plan.grids.push_back(grid);
   }
   return plan;
-}
-
-double read_duration(std::string_view text) {
-  double value = 0.0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  const std::string_view rest(parsed.ptr, static_cast<std::size_t>(text.data() + text.size() - parsed.ptr));
-  if (parsed.ec == std::errc() && std::isfinite(value) && value > 0.0)
-    for (const Unit& unit : units)
-      if (rest == unit.name) return value * unit.seconds;
-  throw std::invalid_argument(
-      fmt::format("'{}' given; allowed: a time with its unit, as 90s, 10min or 2h", text));
-}
-
-std::string duration_text(double seconds) {
-  if (seconds < 100.0) return fmt::format("{:.2g} s", seconds);
-  return seconds < 6000.0 ? fmt::format("{:.0f} min", seconds / 60.0)
-                          : fmt::format("{:.2g} h", seconds / 3600.0);
 }
 
 Outcome BudgetedRunner::run(const Job& job) {

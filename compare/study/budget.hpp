@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/study/runner.hpp"
+#include "solver/scene/duration.hpp"
 
 namespace granvof::compare {
 
@@ -29,11 +30,6 @@ double estimated_seconds(const Job& job, Runner& runner);
 
 // The jobs grid by grid, `jobs[i]` on `cells[i]`.
 Plan plan_of(const std::vector<double>& cells, const std::vector<std::vector<Job>>& jobs, Runner& runner);
-
-// "10min", "90s", "2h": [s], > 0. Throws std::invalid_argument.
-double read_duration(std::string_view text);
-// "6 s", "12 min", "2.5 h".
-std::string duration_text(double seconds);
 
 // Passes jobs on until what they took is the budget: a job that would go beyond it (by the estimate,
 // corrected by what those before it took) is not started, and its outcome says so.

@@ -48,12 +48,6 @@ std::optional<double> range_of(const Curve& curve, const std::optional<Window>& 
   return high && *high > *low ? std::optional(*high - *low) : std::nullopt;
 }
 
-bool complete(const Needs& needs, const Parameters& p) {
-  return (!needs.window || p.window) && (!needs.at || p.at) && (!needs.quiet || p.quiet) &&
-         (!needs.level || p.level) && (!needs.published || (p.published && p.column)) &&
-         (!needs.against || p.against);
-}
-
 std::string allowed() {
   std::vector<std::string_view> names;
   names.reserve(curves.size() + metrics().size());
@@ -69,7 +63,7 @@ std::span<const CurveEntry> curve_table() {
 }
 
 std::string Quantity::label() const {
-  return parameters.at ? fmt::format("{}@{:g}", name, *parameters.at) : name;
+  return labelled(name, parameters);
 }
 
 Quantity parse_quantity(std::string_view text, std::optional<Window> window,
@@ -88,7 +82,7 @@ Quantity parse_quantity(std::string_view text, std::optional<Window> window,
   }
   const MetricEntry* metric = find_metric(quantity.name);
   if (metric && metric->needs.at == quantity.parameters.at.has_value()) {
-    if (complete(metric->needs, quantity.parameters)) return quantity;
+    if (is_complete(metric->needs, quantity.parameters)) return quantity;
     for (const Check& check : fallback)
       if (check.metric == quantity.name &&
           (!metric->needs.at || check.parameters.at == quantity.parameters.at)) {

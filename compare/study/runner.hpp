@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/engine/engine.hpp"
 #include "compare/input/run.hpp"
 #include "compare/study/cache_lock.hpp"
 
@@ -45,24 +46,23 @@ class Runner {
   virtual bool has(const Job& job) = 0;
 };
 
-// A run cheaper than RunnerOptions::repeat_below is timed so often: a cost of a second is mostly noise.
+// A run cheaper than cheap_run (compare/engine/order.hpp) is timed so often.
 inline constexpr int timings_of_a_cheap_run = 3;
 
 struct RunnerOptions {
   std::filesystem::path program;  // granvof
   std::filesystem::path cache;    // run directories, one a job, below CACHE/SCENE/
   double timeout = 3600.0;        // wall-clock seconds after which a run is ended and counts as failed
-  double repeat_below = 2.0;      // runs cheaper than this [core-s] are timed three times
   bool any_version = false;  // also take what another version of the program, or of the case, left for the
                              // same case and overrides; what is shown names that version
-  bool progress = true;      // a line on stderr for every run that is made
+  int timings = timings_of_a_cheap_run;
+  bool progress = true;  // a line on stderr for every run that is made
 };
 
 // A run that somebody stopped is no result: run() throws.
-// A job is identified by its resolved case and the version of the program (and, of a version with uncommitted
-// changes, by the program file's time); a run that ended, well or not, is not made again, but for one that
-// was ended by a shorter time limit than now. The cache is locked while the runner lives. Throws
-// std::runtime_error where the program cannot be started, or another study works in the cache.
+// Runs are made by the run engine, timed: one at a time. A job is identified by its resolved case and the
+// program; what was made is not made again (compare/engine/made.hpp). The cache is locked while the runner
+// lives. Throws std::runtime_error where the program cannot be started, or another study works in the cache.
 class CachedRunner : public Runner {
  public:
   explicit CachedRunner(RunnerOptions options);
@@ -70,16 +70,18 @@ class CachedRunner : public Runner {
   bool has(const Job& job) override;
   const std::string& version() const { return version_; }
 
+  // What run() has the engine make, for somebody else to make; the case must be accepted.
+  Order order_of(const Job& job) const;
+
  private:
-  std::filesystem::path directory_of(const Scene& scene) const;
-  std::optional<Outcome> kept(const Job& job, const Scene& scene,
-                              const std::filesystem::path& directory) const;
-  Outcome make(const Job& job, const Scene& scene, const std::filesystem::path& directory) const;
+  std::optional<Outcome> kept(const Job& job, const Scene& scene, const Order& order) const;
+  Outcome make(const Scene& scene, const Order& order);
 
   RunnerOptions options_;
   std::optional<CacheLock> lock_;
+  Engine engine_;
   std::string version_;   // as `granvof --version` states it
-  std::string identity_;  // of the program: its version, and its time where that is not enough
+  std::string identity_;  // of the program
 };
 
 }  // namespace granvof::compare

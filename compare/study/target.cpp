@@ -22,25 +22,6 @@ std::optional<double> cost_of_record(const Run& record) {
   return *spent / simulated;
 }
 
-// Mean of curves, on the samples of the first that all cover.
-Curve mean_curve(const std::vector<Curve>& curves) {
-  Curve mean;
-  mean.widest = curves.front().widest;
-  for (const double x : curves.front().time) {
-    double sum = 0.0;
-    bool covered = true;
-    for (const Curve& curve : curves) {
-      const auto value = value_at(curve, x);
-      covered = covered && value.has_value();
-      sum += value.value_or(0.0);
-    }
-    if (!covered) continue;
-    mean.time.push_back(x);
-    mean.value.push_back(sum / static_cast<double>(curves.size()));
-  }
-  return mean;
-}
-
 Observed mean_of(const Quantity& quantity, const std::vector<Observed>& variants) {
   Observed mean;
   if (quantity.is_curve) {

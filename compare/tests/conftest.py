@@ -8,7 +8,9 @@ import h5py
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+ROOT = Path(__file__).resolve().parent.parent.parent
+COMPARE = ROOT / "build/release/compare/granvof-compare"  # holds the run engine
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 
 def row_of(**changed):
@@ -60,6 +62,13 @@ def make_fields(path, phi_of_x):
             group.attrs["time"] = time
             f_s[0, :4, :3 + index] = 0.57 - 0.1 * (index % 2)
             group["f_s"], group["alpha"], group["phi"] = f_s, alpha, np.broadcast_to(phi_of_x(x), f_s.shape)
+
+
+@pytest.fixture(scope="session")
+def compare():
+    """The program granvof-compare."""
+    assert COMPARE.exists(), "`make build` builds granvof-compare"
+    return COMPARE
 
 
 @pytest.fixture

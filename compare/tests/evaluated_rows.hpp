@@ -79,6 +79,9 @@ class Evaluate : public testing::Test {
   const std::string record_row =
       "metric = \"run_out\"\nat = 5\nreference = { kind = \"DEM\", record = \"s1\" }\n"
       "tolerance = { absolute = 0.01, unit = \"-\" }\n";
+  const std::string curve_row =
+      "metric = \"run_out_curve\"\nwindow = [0, 5]\nreference = { kind = \"DEM\", record = \"s1\" }\n"
+      "tolerance = { absolute = 0.01, unit = \"-\" }\n";
 
   test::TemporaryDirectory directory_;
   const fs::path& root_ = directory_.path();

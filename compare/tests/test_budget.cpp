@@ -70,14 +70,6 @@ TEST(Budget, CheapRunsAreTimedSeveralTimes) {
   EXPECT_DOUBLE_EQ(estimated_seconds(fine, inner), estimate_cost(load_scene(s1, fine.set)).core_seconds);
 }
 
-TEST(Budget, TimesAreReadWithTheirUnit) {
-  EXPECT_EQ(read_duration("10min"), 600.0);
-  EXPECT_EQ(read_duration("90s"), 90.0);
-  EXPECT_EQ(read_duration("1.5h"), 5400.0);
-  for (const char* wrong : {"", "10", "min", "-3s", "0s", "10 min", "10minutes", "nans"})
-    EXPECT_THROW(read_duration(wrong), std::invalid_argument) << wrong;
-}
-
 TEST(AdviseDefaults, NoCellIsSmallerThanAGrain) {
   const Scene scene = load_scene(s1);  // grains of 0.8 mm
   EXPECT_EQ(cells_to_advise({0.005, 0.0025, 0.00125, 0.000625}, scene),

@@ -108,6 +108,36 @@ TEST_F(Evaluate, WithoutARecordTheRowIsNotRunAndRed) {
   EXPECT_EQ(evaluation.unexpected(), 1);
 }
 
+// Two fronts at constant speeds: the distance grows linearly, its rms over [0, T] is the last over sqrt(3).
+TEST_F(Evaluate, ACurveIsJudgedByItsDistanceFromTheMeanOfTheRecords) {
+  write_run("s1", series(0.12));
+  write_record("seed1", 0.10, scene_.reference_hash);
+  write_record("seed2", 0.11, scene_.reference_hash);
+  const Result result = evaluate_row(curve_row).results[0];
+  EXPECT_NEAR(*result.value, run_out_at_5(0.12 - 0.105) / std::sqrt(3.0), 1e-4);
+  EXPECT_EQ(*result.reference, 0.0);
+  EXPECT_NEAR(result.band, 0.5 * run_out_at_5(0.01) / std::sqrt(3.0), 1e-4);
+  EXPECT_EQ(result.judgement.verdict, Verdict::differs);
+  write_run("s1", series(0.105));
+  EXPECT_EQ(evaluate_row(curve_row).results[0].judgement.verdict, Verdict::agrees);
+}
+
+TEST_F(Evaluate, ACurveWithoutItsRecordIsNotRunAndRed) {
+  write_run("s1", series(0.1));
+  const Evaluation none = evaluate_row(curve_row);
+  EXPECT_EQ(none.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_EQ(none.unexpected(), 1);
+  write_record("seed1", 0.10, "another hash");
+  EXPECT_EQ(evaluate_row(curve_row).results[0].judgement.verdict, Verdict::stale);
+}
+
+TEST_F(Evaluate, ACurveHasNoOtherReference) {
+  EXPECT_THROW(
+      evaluate_row("metric = \"run_out_curve\"\nwindow = [0, 5]\nreference = { kind = \"theory\", value = 0, "
+                   "source = \"x\" }\ntolerance = { absolute = 0.01, unit = \"-\" }\n"),
+      TableError);
+}
+
 TEST_F(Evaluate, TheSpreadOfTheRecordsIsTheBand) {
   write_run("s1", series(0.102));
   write_record("seed1", 0.10, scene_.reference_hash);

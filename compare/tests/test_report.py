@@ -25,7 +25,7 @@ def test_report_writes_every_plot_as_png_and_those_of_the_whole_as_pdf(reported)
     plots = {path.stem for path in (reported / "plots").glob("*.png")}
     assert plots == {"run-out", "base-pressure", "floating-run-out", "centre-height", "floating-theory", "dam-break", "sedimentation",
                      "viscous-collapse", "snapshots-s1", "snapshots-float-full-r02"}
-    of_every_run = ("snapshots-", "energy-", "plan-")
+    of_every_run = ("snapshots-", "energy-", "ledger-", "plan-")
     assert {name for name in plots if not name.startswith(of_every_run)} == {path.stem for path in (reported / "plots").glob("*.pdf")}
     text = (reported / "report.html").read_text()
     films = list((reported / "plots").glob("*.apng"))
@@ -189,7 +189,7 @@ def test_published_series_are_read_by_column(verify_directory):
 
 
 def write_section(directory, name="charts", **content):
-    (directory / name).mkdir()
+    (directory / name).mkdir(parents=True)
     Image.new("RGB", (120, 120)).save(directory / name / "a-b.png")
     (directory / name / f"{name}.json").write_text(json.dumps(content))
 
@@ -203,6 +203,18 @@ def test_sections_of_others_are_shown(tmp_path, verify_directory):
     text = page.render(results.load(verify_directory), [], found)
     assert "Where it &lt;holds&gt;" in text and "s1 &amp; s2" in text and 'data-value="1.23456">1.235<' in text
     assert 'alt="a b"' in text and "One line." in text and "abc1234" in text
+
+
+def test_what_was_kept_of_the_faults_is_shown_until_there_is_more(tmp_path, verify_directory):
+    kept = tmp_path / "kept"
+    write_section(kept, "mutate", title="Kept faults")
+    arguments = ["--verify", str(verify_directory), "--kept", str(kept)]
+    report.main(arguments)
+    assert "Kept faults" in (verify_directory / "report.html").read_text()
+    write_section(verify_directory.parent, "mutate", title="New faults")
+    report.main(arguments)
+    page_text = (verify_directory / "report.html").read_text()
+    assert "New faults" in page_text and "Kept faults" not in page_text
 
 
 @pytest.mark.parametrize("content", [{}, {"title": "t", "figures": [{"file": "gone.png", "caption": "c"}]}, {"title": "t", "tables": [{}]}])

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from border import judge, search, table
+from engine.client import Engine
 from report import sections, stability
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -52,8 +53,8 @@ def test_given_values_are_the_only_ones_tried():
     assert all(value in axis.values for value, _, _ in found.tried)
 
 
-def record(state="finished", reason="", warnings=()):
-    return {"steps": 10, "core_seconds": 0.1, "exit": {"state": state, "reason": reason}, "warnings": list(warnings)}
+def record(kind="finished", reason="", warnings=()):
+    return {"steps": 10, "core_seconds": 0.1, "exit": {"kind": kind, "reason": reason}, "warnings": list(warnings)}
 
 
 def test_a_run_that_ends_with_a_warning_does_not_hold():
@@ -65,9 +66,9 @@ def test_a_run_that_ends_with_a_warning_does_not_hold():
 
 
 def test_failures_are_told_apart():
-    assert judge.Runner.classify(record("failed", "step collapse at t = 1 s: outflow"), ()).kind == judge.COLLAPSE
-    assert judge.Runner.classify(record("failed", "step collapse at t = 1 s: the u is not finite"), ()).kind == judge.BLOW_UP
-    assert judge.Runner.classify(record("failed", "blow-up: 1 J in motion"), ()).kind == judge.BLOW_UP
+    assert judge.Runner.classify(record("step collapse", "the u is not finite, says who?"), ()).kind == judge.COLLAPSE
+    assert judge.Runner.classify(record("not finite", "step collapse"), ()).kind == judge.BLOW_UP
+    assert judge.Runner.classify(record("alarm", "step collapse"), ()).kind == judge.BLOW_UP
 
 
 def test_curves_are_compared_at_common_times():
@@ -83,14 +84,17 @@ import json, pathlib, sys
 arguments = sys.argv
 out = pathlib.Path(arguments[arguments.index("--out") + 1])
 sets = dict(arguments[i + 1].split("=", 1) for i, a in enumerate(arguments) if a == "--set")
-out.mkdir(parents=True)
+out.mkdir(parents=True, exist_ok=True)
 cfl = float(sets.get("numerics.cfl", 0.4))
 error = float(sets.get("k", 0)) * cfl
+if "refused" in sets:
+    print("k: got 7", file=sys.stderr)
+    sys.exit(2)
 while "forever" in sets:
     pass
 (out / "series.csv").write_text(f"time [s],y_solid_mean [m]\\n0,1\\n1,{1 + error}\\n")
 (out / "run.json").write_text(json.dumps({"steps": 1, "core_seconds": 0.0, "warnings": json.loads(sets.get("warnings", "[]")),
-    "exit": {"state": "finished", "reason": ""}, "resolved_case": f"[numerics]\\ncfl = {cfl}\\ndt_max = 1\\n"}))
+    "exit": {"state": "finished", "kind": "finished", "reason": ""}, "resolved_case": f"[numerics]\\ncfl = {cfl}\\ndt_max = 1\\n"}))
 """
 
 
@@ -103,8 +107,9 @@ def solver(tmp_path):
 
 
 @pytest.fixture
-def runner(solver, tmp_path):
-    return judge.Runner(solver, tmp_path, 20)
+def runner(solver, tmp_path, compare):
+    with Engine(compare, solver) as engine:
+        yield judge.Runner(engine, tmp_path, 20, keep=False)
 
 
 @pytest.fixture
@@ -126,9 +131,15 @@ def test_what_depends_on_the_step_and_is_warned_of_is_detected(runner, scene):
     assert runner.judge(scene, ["k=1"] + warned, "moved", ["elastic start"]).kind == judge.DETECTED
 
 
-def test_a_run_beyond_its_core_seconds_counts_as_failed(solver, scene, tmp_path):
-    found = judge.Runner(solver, tmp_path, 1).judge(scene, ["forever=1"], "endless")
-    assert found.kind == judge.COLLAPSE
+def test_a_run_beyond_its_core_seconds_counts_as_failed(runner, scene):
+    runner.limit = 1
+    found = runner.judge(scene, ["forever=1"], "endless")
+    assert found.kind == judge.COLLAPSE and "1 core-s" in found.why
+
+
+def test_a_case_that_is_refused_is_an_error_of_the_table(runner, scene):
+    with pytest.raises(RuntimeError, match="endless: k: got 7"):
+        runner.judge(scene, ["refused=1"], "endless")
 
 
 @pytest.mark.parametrize("text, said", [

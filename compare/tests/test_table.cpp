@@ -245,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"at = 2\n", "\n", "10:", "run_out needs the key 'at'"},
         BadInput{"at = 2", "at = 2\nwindow = [0, 1]", "12:", "takes no such parameter"},
         BadInput{"kind = \"published\"", "kind = \"guess\"",
-                 "12:", "allowed: theory, published, DEM, regression"},
+                 "12:", "allowed: theory, published, DEM, aim, regression"},
         BadInput{"value = 0.3, ", "", "12:", "exactly one of"},
         BadInput{"value = 0.3", "formula = \"floating_period\"", "12:", "is in s"},
         BadInput{"value = 0.3", "formula = \"nothing\"", "12:", "'nothing' given"},

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parent.parent / "verify"
+ROOT = Path(__file__).resolve().parent.parent.parent
+SCRIPT = ROOT / "compare/verify"
+COMPARE = ROOT / "build/release/compare/granvof-compare"
 
 
 @pytest.fixture
@@ -30,11 +32,23 @@ def program(path, body):
     path.chmod(path.stat().st_mode | stat.S_IXUSR)
 
 
-def stand_ins(build, check_code=0, solver="exit 0"):
+LEAVES = """while [ $# -gt 0 ]; do [ "$1" = --out ] && out=$2; shift; done; mkdir -p $out
+echo '{"exit": {"state": "finished", "kind": "finished"}, "core_seconds": 1}' > $out/run.json
+"""
+
+
+def plan_of(build):
+    orders = [{"id": "a", "case": str(ROOT / "cases/s1.toml"), "directory": str(build / "out/runs/a"), "set": []},
+              {"id": "b", "case": str(ROOT / "cases/s1.toml"), "directory": str(build / "out/runs/b"),
+               "set": ["grid.dx=0.005", "model.drag=false"]}]
+    return "\n".join(json.dumps(order) for order in orders)
+
+
+def stand_ins(build, check_code=0, solver=LEAVES, other=""):
+    """The plan is of two runs, which the real run engine makes."""
     program(build / "compare/granvof-compare",
-            'if [ "$1" = plan ]; then printf "a\\ts1\\nb\\ts1\\tgrid.dx=0.005\\tmodel.drag=false\\n"; exit 0; fi\n'
-            f'exit {check_code}\n')
-    program(build / "solver/granvof", f'echo "$@" >> "{build}/calls"\n{solver}\n')
+            f"case \"$1\" in plan) echo '{plan_of(build)}'; exit 0;; run) exec {COMPARE} \"$@\";; esac\n{other}\nexit {check_code}\n")
+    program(build / "solver/granvof", f'[ "$1" = --version ] && echo "granvof 1.0 (abc)" && exit\necho "$@" >> "{build}/calls"\n{solver}\n')
     return ["--build-dir", str(build), "--out", str(build / "out"), "--jobs", "2"]
 
 
@@ -46,13 +60,23 @@ def test_runs_what_the_plan_says(verify, tmp_path, capsys):
     assert calls[1].endswith("out/runs/b --threads 1 --force --set grid.dx=0.005 --set model.drag=false")
     printed = capsys.readouterr().out
     assert "a " in printed and "done" in printed
+    assert len((tmp_path / "out/runs/accounts.csv").read_text().splitlines()) == 3
+
+
+def test_what_was_made_is_kept_only_where_it_is_asked_for(verify, tmp_path, capsys):
+    arguments = stand_ins(tmp_path)
+    calls = lambda: len((tmp_path / "calls").read_text().splitlines())  # noqa: E731
+    assert verify.main([*arguments, "--go-on"]) == 0
+    assert verify.main([*arguments, "--go-on"]) == 0
+    assert calls() == 2 and "kept" in capsys.readouterr().out
+    assert verify.main(arguments) == 0
+    assert calls() == 4
 
 
 def test_the_canary_can_be_left_out(verify, tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(verify, "run_canary", lambda build_dir, out: asked.append(out) or ("agrees", "said"))
-    arguments = stand_ins(tmp_path)
-    program(tmp_path / "compare/granvof-compare", f'[ "$1" = plan ] || echo "$@" >> "{tmp_path}/checked"\n')
+    arguments = stand_ins(tmp_path, other=f'echo "$@" >> "{tmp_path}/checked"')
     assert verify.main([*arguments, "--without-canary"]) == 0
     assert verify.main(arguments) == 0
     without, with_it = (tmp_path / "checked").read_text().splitlines()
@@ -94,7 +118,7 @@ def test_bad_input_is_two(verify, tmp_path):
 
 def test_a_run_that_hangs_is_stopped(verify, tmp_path, capsys):
     assert verify.main(stand_ins(tmp_path, solver="exec sleep 60") + ["--timeout", "0.3"]) == 1
-    assert "stopped after 0.3 s" in capsys.readouterr().out
+    assert "ended after 0.3 s" in capsys.readouterr().out
 
 
 def test_a_missing_program_is_named(verify, tmp_path, capsys):

@@ -58,7 +58,7 @@ TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   const std::vector<std::string> set{"grid.dx=0.005", "time.end=2", "output.field_times=[0]"};
   RunnerOptions options{GRANVOF_PROGRAM, root.path()};
   options.progress = false;
-  options.repeat_below = 0.0;
+  options.timings = 1;
   std::optional<CachedRunner> first(std::in_place, options);
   CachedRunner& runner = *first;
   const auto metrics = metrics_of_scene(parse_table(checks, "checks"), "canary");

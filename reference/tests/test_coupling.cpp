@@ -1,6 +1,5 @@
 // Beads and fluid together, against theory.
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <random>
 
@@ -8,52 +7,20 @@
 
 #include "reference/demvof/coupling/coupled_run.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
+#include "reference/tests/coupled_tank.hpp"
 #include "reference/tests/printed_drag.hpp"
 
 namespace {
 
-using demvof::BeadSettings;
 using demvof::BeadState;
 using demvof::CoupledRun;
-using demvof::FluidSettings;
 using demvof::FluidSide;
+using demvof::test::start;
+using demvof::test::tank;
+using demvof::test::TankSetup;
 
 constexpr double d = 0.8e-3;
 constexpr demvof::test::PhaseProperties water{1000.0, 1e-3};
-
-struct TankSetup {
-  FluidSettings fluid;
-  BeadSettings beads;
-  std::size_t cells() const {
-    return static_cast<std::size_t>(fluid.cells[0]) * static_cast<std::size_t>(fluid.cells[1]);
-  }
-};
-
-// A two-dimensional tank of water without a surface, closed or open at the top.
-TankSetup tank(int nx, int ny, double cell, double depth, FluidSide top) {
-  TankSetup s;
-  s.fluid.cells = {{nx, ny, 1}};
-  s.fluid.spacing = {{cell, cell, depth}};
-  s.fluid.sides = {
-      {FluidSide::slip, FluidSide::slip, FluidSide::slip, top, FluidSide::empty, FluidSide::empty}};
-  s.fluid.large_eddy = false;
-  s.fluid.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
-  s.beads.tank = {nx * cell, ny * cell, depth};
-  s.beads.diameter = d;
-  s.beads.density = 2500.0;
-  s.beads.scratch_folder = s.fluid.scratch_folder;
-  return s;
-}
-
-CoupledRun start(const TankSetup& s, const std::vector<double>& position, double fluid_dt = 2e-4,
-                 bool predict_pressure = false) {
-  BeadState beads;
-  beads.position = position;
-  demvof::CouplingSettings coupling;
-  coupling.fluid_dt = fluid_dt;
-  coupling.predict_pressure = predict_pressure;
-  return {coupling, s.beads, beads, {}, s.fluid, std::vector<double>(s.cells(), 1.0)};
-}
 
 // Speed at which drag (8), (9) at this solid fraction balances the submerged weight [m/s].
 double terminal_speed(double f_s, double density, double gravity) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/demvof/beads/bead_engine.hpp"
 #include "reference/demvof/preparation/column.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
 #include "reference/demvof/preparation/rough_floor.hpp"
@@ -38,6 +39,21 @@ demvof::ColumnSettings small_column() {
 }
 
 }  // namespace
+
+// LIGGGHTS says of each style of a second engine that it is there already.
+TEST(Engine, TheSecondOneSaysNothing) {
+  demvof::BeadSettings settings;
+  settings.diameter = d;
+  settings.density = 2500.0;
+  settings.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
+  settings.upper = {0.01, 0.01, 0.01};
+  demvof::BeadState one;
+  one.position = {0.005, 0.005, 0.005};
+  ::testing::internal::CaptureStderr();
+  { const demvof::BeadEngine first(settings, one, {}); }
+  { const demvof::BeadEngine second(settings, one, {}); }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
 
 TEST(Disperse, FillsHalfOfTheBoxWithoutOverlap) {
   std::mt19937 random(1);

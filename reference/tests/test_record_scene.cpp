@@ -63,6 +63,20 @@ TEST(RecordScene, ACaseWithLiquidKeepsIt) {
   EXPECT_GT(*wet.series.column("liquid_volume").back(), 0.0);
 }
 
+// A column 7 beads high packs looser at its boundaries than asked for: it says so, and by how much.
+TEST(RecordScene, APreparationThatMissesItsPackingSaysSo) {
+  const auto warned = [](const Recorded& r) {
+    return r.facts.find("reference.packing asks for") != std::string::npos;
+  };
+  const Recorded missed = recorded({"reference.packing=0.64"});
+  EXPECT_EQ(missed.code, 0);
+  EXPECT_TRUE(warned(missed)) << missed.facts;
+  EXPECT_NE(missed.facts.find("asks for 0.64; released at 0.4"), std::string::npos) << missed.facts;
+  const Recorded suspended = recorded({"reference.packing=0.3"});  // exact by construction
+  EXPECT_EQ(suspended.code, 0);
+  EXPECT_FALSE(warned(suspended)) << suspended.facts;
+}
+
 // No step is cut for a row or a field: with more of them the rows that both have are equal to the bit.
 TEST(RecordScene, OutputDoesNotSteerTheRun) {
   // Powers of two: both have their rows at the same times to the bit.
@@ -117,4 +131,27 @@ TEST(RecordScene, AFailureBeforeTheFirstStepIsAnEndThatIsWritten) {
   const std::string facts = text_of(options.out / "run.json");
   EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
   EXPECT_NE(facts.find("scratch"), std::string::npos) << facts;
+}
+
+// LIGGGHTS ends the program where it finds an error, as it does in what it takes for a command with too many
+// words.
+TEST(RecordScene, AnEndByLiggghtsIsAnEndThatIsWritten) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options;
+  options.out = directory.path() / "run";
+  options.scratch = directory.path() / "a \" b";
+  EXPECT_EQ(demvof::record_scene(demvof::test::small(), options), 1);
+  const std::string facts = text_of(options.out / "run.json");
+  EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
+  EXPECT_NE(facts.find("LIGGGHTS ended the program with exit code 1: ERROR"), std::string::npos) << facts;
+}
+
+TEST(RecordScene, AScratchFolderMayHaveBlanks) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options;
+  options.out = directory.path() / "run";
+  options.scratch = directory.path() / "a b";
+  EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.002"}), options), 0);
+  for (const auto& left : fs::directory_iterator(options.scratch))
+    EXPECT_NE(left.path().extension(), ".log") << left.path();
 }

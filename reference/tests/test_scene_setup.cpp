@@ -32,6 +32,20 @@ TEST(SceneSetup, BeadsAreTheGrains) {
   EXPECT_DOUBLE_EQ(beads.dt, 1e-5);
 }
 
+TEST(SceneSetup, TheGatesPlateIsAsTheWallsUnlessSaidOtherwise) {
+  const auto law = [](const std::vector<std::string>& more) {
+    std::vector<std::string> overrides{"gate={position=0.01, speed=1}"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return demvof::bead_settings(small(overrides), "scratch").law;
+  };
+  EXPECT_EQ(law({"reference.wall_friction=0.3"}).gate_friction, 0.3);
+  const demvof::ContactLaw smooth = law({"reference.gate_friction=0"});
+  EXPECT_EQ(smooth.gate_friction, 0.0);
+  EXPECT_EQ(smooth.wall_friction, 0.4);
+  const char* slip = R"(walls={left="slip", right="slip", bottom="slip", top="open"})";
+  EXPECT_EQ(law({slip}).gate_friction, 0.0);
+}
+
 // Size and step follow the factor, the material does not.
 TEST(SceneSetup, CoarseGrainedBeadsAreLargerAndOfTheSameMaterial) {
   const granvof::Scene scene = small({"reference.coarse_graining=1.5"});

@@ -25,6 +25,16 @@ inline double inertial_friction(double p_enduring, double strain_norm, double mu
   return fast > 0.0 ? mu_s + (mu_2 - mu_s) * fast / (fast + slow) : mu_s;
 }
 
+// Friction coefficient mu(I_v) [-] of grains that a viscous liquid stops, rho_s d_s^2 gamma / mu_c < 1: mu_s
+// + (mu_2 - mu_s) / (1 + I_v0 / I_v), I_v = mu_c gamma / P, gamma = 2 ||S||, the part of contacts (Boyer,
+// Guazzelli and Pouliquen, PRL 107 (2011) 188301: 0.32, 0.7, 0.005 in theirs). Limits: mu_s for strain_norm
+// -> 0, mu_2 for p -> 0. p_enduring >= 0 [Pa], mu_c >= 0 [Pa s], i_v0 > 0 [-].
+inline double viscous_friction(double p_enduring, double strain_norm, double mu_s, double mu_2, double i_v0,
+                               double mu_c) {
+  const double fast = 2.0 * strain_norm * mu_c, slow = i_v0 * p_enduring;
+  return fast > 0.0 ? mu_s + (mu_2 - mu_s) * fast / (fast + slow) : mu_s;
+}
+
 // Friction coefficient below which a layer of thickness h [m] on a rough floor comes to rest [-]: mu_s +
 // (mu_2 - mu_s) / (1 + h / (L d_s)), the inverse of h_stop(theta) (Pouliquen, Phys. Fluids 11 (1999) 542). L
 // = 1.65 belongs to mu_2, I_0 of inertial_friction(): both are fits of the same flows (Jop et al., J. Fluid

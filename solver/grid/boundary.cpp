@@ -16,23 +16,34 @@ void for_side(const Layout& l, int d, Body&& body) {
 
 Boundary::Boundary(const Grid& grid, const Communicator& communicator)
     : grid_(grid), communicator_(communicator) {
-  const Layout& l = grid.cells;
   grid.for_each_open_side([&](int d, bool upper) {
     const SideRule& rule = grid.side(d, upper);
-    if (!rule.pressure) return;
-    if (!has_pressure_) side_pressure_ = Field(grid);
-    has_pressure_ = true;
-    std::array<int, 3> at{};
-    const int e = (d + 1) % 3, f = (d + 2) % 3;
-    at[d] = upper ? l.n[d] : -1;
-    for (at[f] = -l.ghost[f]; at[f] < l.n[f] + l.ghost[f]; ++at[f])
-      for (at[e] = -l.ghost[e]; at[e] < l.n[e] + l.ghost[e]; ++at[e]) {
-        Vec3 place{};
-        for (int c = 0; c < 3; ++c) place[c] = (at[c] + 0.5) * grid.h[c];
-        place[d] = upper ? l.n[d] * grid.h[d] : 0.0;
-        side_pressure_[l.index(at)] = rule.pressure(place);
-      }
+    if (rule.pressure) {
+      if (!has_pressure_) side_pressure_ = Field(grid);
+      has_pressure_ = true;
+      set_beyond(side_pressure_, d, upper, rule.pressure);
+    }
+    if (rule.liquid_that_flows_back) {
+      flows_back_ = Field(grid);
+      set_beyond(flows_back_, d, upper,
+                 [&](const Vec3& place) { return rule.liquid_that_flows_back(place, grid.h[1]); });
+    }
   });
+}
+
+template <typename Value>
+void Boundary::set_beyond(Field& f, int d, bool upper, Value&& value) const {
+  const Layout& l = grid_.cells;
+  std::array<int, 3> at{};
+  const int e = (d + 1) % 3, g = (d + 2) % 3;
+  at[d] = upper ? l.n[d] : -1;
+  for (at[g] = -l.ghost[g]; at[g] < l.n[g] + l.ghost[g]; ++at[g])
+    for (at[e] = -l.ghost[e]; at[e] < l.n[e] + l.ghost[e]; ++at[e]) {
+      Vec3 place{};
+      for (int c = 0; c < 3; ++c) place[c] = (at[c] + 0.5) * grid_.h[c];
+      place[d] = upper ? l.n[d] * grid_.h[d] : 0.0;
+      f[l.index(at)] = value(place);
+    }
 }
 
 // rule(the side's, value of the nearest cell, index of the first cell beyond) is the ghost value.
@@ -72,6 +83,21 @@ void Boundary::fill_solid_fraction(Field& f_s) const {
 void Boundary::fill_liquid_share(Field& alpha) const {
   fill_cells(alpha, [](const SideRule& side, double inside, std::ptrdiff_t) {
     return side.liquid_share.value_or(inside);
+  });
+}
+
+void Boundary::fill_liquid_share(Field& alpha, const FaceField& flux_c) const {
+  fill_liquid_share(alpha);
+  grid_.for_each_open_side([&](int d, bool upper) {
+    if (!side(d, upper).liquid_that_flows_back) return;
+    const Layout& l = grid_.cells;
+    const std::ptrdiff_t s = l.stride[d], face = upper ? l.n[d] * s : 0, beyond = upper ? face : face - s,
+                         out = upper ? s : -s;
+    const double inward = upper ? -1.0 : 1.0;
+    for_side(l, d, [&](std::ptrdiff_t line) {
+      if (!(flux_c[d][line + face] * inward > 0.0)) return;
+      for (int g = 0; g < l.ghost[d]; ++g) alpha[line + beyond + g * out] = flows_back_[line + beyond];
+    });
   });
 }
 

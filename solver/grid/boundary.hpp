@@ -16,6 +16,8 @@ class Boundary {
   // What the sides have beyond them, else zero normal gradient.
   void fill_solid_fraction(Field& f_s) const;
   void fill_liquid_share(Field& alpha) const;
+  // The same, and what flows back by the fluid's flux through the side, where two fluids lie beyond it.
+  void fill_liquid_share(Field& alpha, const FaceField& flux_c) const;
   // Zero normal gradient on sides where the fluid's velocity is given; on those that pass it the side's own
   // pressure, on the side itself (ghost = twice that minus the cell), or an increment of zero.
   void fill_pressure(Field& p) const;
@@ -35,12 +37,16 @@ class Boundary {
  private:
   template <typename Rule>
   void fill_cells(Field& f, Rule&& rule) const;
+  // value(place on the side [m]) on every face of a side, ghost rows along it included.
+  template <typename Value>
+  void set_beyond(Field& f, int d, bool upper, Value&& value) const;
   void fill_sides(FaceField& u, int d, Phase phase) const;
   void fill_beyond(FaceField& u, int d, bool upper, Phase phase) const;
 
   const Grid& grid_;
   const Communicator& communicator_;
-  Field side_pressure_;
+  // Both at the index of the first cell beyond a side, allocated if a side has them.
+  Field side_pressure_, flows_back_;
   bool has_pressure_ = false;
 };
 

@@ -20,6 +20,7 @@ class Field {
   double operator[](std::ptrdiff_t index) const { return values_[static_cast<std::size_t>(index)]; }
   std::span<double> span() { return values_; }
   std::span<const double> span() const { return values_; }
+  bool empty() const { return values_.empty(); }
   void fill(double value) { values_.assign(values_.size(), value); }
 
  private:

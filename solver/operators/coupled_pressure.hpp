@@ -10,6 +10,7 @@
 
 #include <string>
 
+#include "solver/closures/solid_pressure.hpp"
 #include "solver/grid/boundary.hpp"
 #include "solver/linear/coupled_solver.hpp"
 #include "solver/operators/aperture.hpp"
@@ -24,6 +25,8 @@ struct SolidPressureState {
   const Field& restitution;  // e of (18) [-]
   const Field& resting;      // P_s^W of grains in partly filled cells [Pa]
   const Field& packing;      // where the grains touch [-]
+  // mu_c gamma of viscous contacts [Pa]; none where the scene has none
+  const Field* viscous_stress = nullptr;
 };
 
 struct PressureReport {
@@ -63,6 +66,7 @@ class CoupledPressure {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
+  closures::SolidLaw law_;
   double load_;  // scale of P_s [Pa], see scales.hpp
   linear::CoupledSolver solver_;
   SolidFractionFlux fraction_;

@@ -54,6 +54,7 @@ class Friction {
   void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
+  void slip_on_bumps(const Rheology& rheology);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology);
   void hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane);
@@ -78,11 +79,12 @@ class Friction {
   Range box_{{0, 0, 0}, {0, 0, 0}};  // cells the fields below are kept on; outside they hold no stress
   std::array<Layout, 3> faces_;      // of the box, by direction
   StrainRate strain_;
-  Field mu_, lambda_;             // at cell centres [Pa s]
-  std::array<Field, 3> mu_edge_;  // on edges [Pa s], by plane_index()
-  std::array<Field, 3> shear_;    // shear stress on edges [Pa]
-  std::array<Field, 3> tilting_;  // with part-cells, on the edges of vertical planes [-]
-  Field mu_vertical_;             // with part-cells, of the vertical normal strain [Pa s]
+  Field mu_, lambda_;                  // at cell centres [Pa s]
+  std::array<Field, 3> mu_edge_;       // on edges [Pa s], by plane_index()
+  std::array<Field, 3> shear_;         // shear stress on edges [Pa]
+  std::array<Field, 3> kinetic_edge_;  // with bumpy walls, the kinetic part of mu_edge_ [Pa s]
+  std::array<Field, 3> tilting_;       // with part-cells, on the edges of vertical planes [-]
+  Field mu_vertical_;                  // with part-cells, of the vertical normal strain [Pa s]
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
   const Communicator& communicator_;

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "solver/closures/agitation_drag.hpp"
+#include "solver/closures/bumpy_wall.hpp"
 #include "solver/closures/contact_friction.hpp"
+#include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/friction.hpp"
 
 namespace granvof {
@@ -19,6 +21,7 @@ struct Contacts {
   double dilatancy = 0.0;       // tan(psi) [-]
   double least = 0.0;           // coefficient of a layer that stops [-]
   double drag = 0.0;            // beta on the agitation [kg/m3 s]
+  double fluid = 0.0;           // mu_c between the grains [Pa s]
   double normal_squared = 0.0;  // S:S of what is averaged over cells [1/s2]
 };
 
@@ -65,14 +68,26 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   boundary_.fill_scalar(strain_.normal_squared);
   const double eta = scene_.model.contact_friction ? scene_.solid.friction : 0.0;
   const double n = scene_.contact.regularisation;
-  const bool inertial = scene_.model.contact_friction && scene_.model.friction_law == FrictionLaw::inertial;
-  const double mu_2 = scene_.contact.fast_friction, i_0 = scene_.contact.inertial_number;
+  const FrictionLaw friction =
+      scene_.model.contact_friction ? scene_.model.friction_law : FrictionLaw::constant;
+  const Contact& contact = scene_.contact;
+  const double mu_2 = contact.fast_friction;
   const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
-  const auto viscosity_at = [=](const Contacts& sum, double norm) {
-    const double share = 1.0 / sum.count, pressure = share * sum.pressure;
-    const double law =
-        inertial ? closures::inertial_friction(pressure, norm, eta, mu_2, i_0, rho_s, d_s) : eta;
-    double coefficient = std::max(std::max(law, share * sum.least) + share * sum.dilatancy, 0.0);
+  const bool by_rate = scene_.model.shear_dilatancy && scene_.model.dilatancy_friction &&
+                       scene_.model.critical_packing == CriticalPacking::by_rate;
+  const auto viscosity_at = [=, &contact](const Contacts& sum, double norm) {
+    const double share = 1.0 / sum.count, pressure = share * sum.pressure, mu_c = share * sum.fluid;
+    double law = eta, dilatancy = share * sum.dilatancy;
+    if (friction == FrictionLaw::inertial)
+      law = closures::inertial_friction(pressure, norm, eta, mu_2, contact.inertial_number, rho_s, d_s);
+    else if (friction == FrictionLaw::viscous)
+      law = closures::viscous_friction(pressure, norm, eta, mu_2, contact.viscous_number, mu_c);
+    if (by_rate) {
+      const double mixed = closures::mixed_inertial_number(2.0 * norm, pressure, rho_s, d_s, mu_c);
+      dilatancy += contact.dilatancy_slope *
+                   (contact.critical_solid_fraction - closures::critical_packing(mixed, contact));
+    }
+    double coefficient = std::max(std::max(law, share * sum.least) + dilatancy, 0.0);
     if (sum.drag > 0.0)
       coefficient += closures::agitation_friction(share * sum.drag, pressure, norm, rho_s, d_s);
     return closures::friction_viscosity(pressure, coefficient, n, norm);
@@ -80,12 +95,15 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),
                *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data(),
                *beta = rheology.agitated_drag.data();
+  const double* fluid = rheology.pore_viscosity.empty() ? nullptr : rheology.pore_viscosity.data();
   const double *sq = strain_.squared.data(), *side = rheology.free_side.data();
   double *mu = mu_.data(), *lambda = lambda_.data();
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     lambda[c] = kinetic[c];
     mu[c] = kinetic[c];
-    if (p[c] > 0.0) mu[c] += viscosity_at({1, p[c], psi[c], stop[c], beta[c], 0.0}, std::sqrt(0.5 * sq[c]));
+    if (p[c] > 0.0)
+      mu[c] += viscosity_at({1, p[c], psi[c], stop[c], beta[c], fluid ? fluid[c] : 0.0, 0.0},
+                            std::sqrt(0.5 * sq[c]));
   });
   boundary_.fill_scalar(mu_);
   if (scene_.numerics.bed_surface == BedSurface::part_cells) {
@@ -124,6 +142,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
           sum.dilatancy += psi[a];
           sum.least += stop[a];
           sum.drag += beta[a];
+          if (fluid) sum.fluid += fluid[a];
           for (int q = 0; q < parts; ++q) sum.normal_squared += rest[q][a];
         }
         if (sum.count > 0)
@@ -134,6 +153,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     }
   }
   set_wall_friction(rheology, u_strain);
+  slip_on_bumps(rheology);
 }
 
 // Edges on closed sides: none for slip, at most mu_w P_s^E for Coulomb (through a viscosity of the old
@@ -169,6 +189,48 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
           const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
           const double speed = std::sqrt(along * along + across * across);
           edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, slowest));
+        });
+      }
+    }
+  }
+}
+
+// Collisions with the bumps of a wall: stress and slip of bumpy_wall.hpp, in a row with the kinetic viscosity
+// over the half cell beside it. Enduring contacts stick to the bumps.
+void Friction::slip_on_bumps(const Rheology& rheology) {
+  if (rheology.bump_pressure.empty()) return;
+  const double *kinetic = rheology.kinetic_viscosity.data(), *pressure = rheology.bump_pressure.data();
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (int e = d + 1; e < grid_.dim; ++e) {
+      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+      double* own = kinetic_edge_[plane_index(d, e)].data();
+      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
+        own[c] = 0.25 * (kinetic[c] + kinetic[c - s] + kinetic[c - t] + kinetic[c - s - t]);
+      });
+    }
+  }
+  for (int d = 0; d < grid_.dim; ++d) {
+    for (const bool upper : {false, true}) {
+      const auto& bumps = boundary_.side(d, upper).bumps;
+      if (!bumps) continue;
+      const double slip = closures::bumpy_wall_slip(bumps->angle);
+      for (int e = 0; e < grid_.dim; ++e) {
+        if (e == d) continue;
+        const int plane = plane_index(std::min(d, e), std::max(d, e));
+        Range wall = grid_.edges(d, e);
+        wall.lower[d] = upper ? grid_.cells.n[d] : 0;
+        wall.upper[d] = wall.lower[d] + 1;
+        wall = common(wall, Grid::edges(box_, d, e));
+        const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+        const double half = 0.5 * grid_.h[d];
+        double *own = kinetic_edge_[plane].data(), *edge = mu_edge_[plane].data();
+        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
+          const double before = own[c];
+          const double hold =
+              0.25 * half / slip *
+              (pressure[c] + pressure[c - s] + pressure[c - t] + pressure[c - s - t]);  // [Pa s]
+          own[c] = before > 0.0 ? before * hold / (before + hold) : 0.0;
+          edge[c] += own[c] - before;
         });
       }
     }

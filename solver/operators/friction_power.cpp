@@ -54,12 +54,15 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
       total += sum_over_edges(
           grid_, d, e, [=](std::ptrdiff_t c) { return edge[c] > 0.0 ? tau[c] * tau[c] / edge[c] : 0.0; });
       // of an edge's dissipation per kinetic viscosity of a cell beside it: the square of its strain, less
-      // where a Coulomb wall bears less than the mean kinetic viscosity around
+      // where a Coulomb wall bears less than the mean kinetic viscosity around, or grains slip on bumps
+      const Field& of_edges = kinetic_edge_[plane_index(d, e)];
+      const double* slipping = of_edges.empty() ? nullptr : of_edges.data();
       const auto squared = [=](std::ptrdiff_t c) {
         if (edge[c] <= 0.0) return 0.0;
         const double mean = 0.25 * (kinetic[c] + kinetic[c - s] + kinetic[c - t] + kinetic[c - s - t]);
+        const double held = slipping ? std::min(edge[c], slipping[c]) : edge[c];
         const double strain = tau[c] / edge[c];
-        return strain * strain * (edge[c] < mean ? edge[c] / mean : 1.0);
+        return strain * strain * (held < mean ? held / mean : 1.0);
       };
       for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
         if (kinetic[c] > 0.0)

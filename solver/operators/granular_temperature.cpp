@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/closures/bumpy_wall.hpp"
 #include "solver/closures/kinetic_theory.hpp"
-#include "solver/closures/radial_distribution.hpp"
 #include "solver/operators/flux_balance.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/scene/gravity.hpp"
@@ -40,6 +40,21 @@ double largest_granular_temperature(const Scene& scene) {
          (std::fabs(g[1]) * scene.tank[1] + std::fabs(g[0]) * scene.tank[0] + 0.5 * wall_speed_squared);
 }
 
+// Bumps take from the cells beside them.
+Field loss_to_bumps(const Grid& grid, const Boundary& boundary) {
+  Field loss;
+  for (int d = 0; d < grid.dim; ++d) {
+    for (const bool upper : {false, true}) {
+      const auto& bumps = boundary.side(d, upper).bumps;
+      if (!bumps) continue;
+      if (loss.empty()) loss = Field(grid);
+      const double taken = closures::bumpy_wall_loss(bumps->restitution) / grid.h[d];
+      for_each(grid.cells, grid.side_cells(d, upper), [&](std::ptrdiff_t c) { loss[c] += taken; });
+    }
+  }
+  return loss;
+}
+
 }  // namespace
 
 GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
@@ -47,6 +62,8 @@ GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, c
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
+      laws_(scene),
+      wall_loss_(loss_to_bumps(grid, boundary)),
       solver_(grid.cells, communicator, grid.h),
       conductivity_(grid),
       kappa_(grid),
@@ -78,11 +95,11 @@ double GranularTemperature::convect(double dt, const Field& theta, const Field& 
 void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheology& rheology,
                                   Field& theta_new) {
   const double rho_s = scene_.solid.density;
-  const double *f = f_s_new.data(), *mu = rheology.kinetic_viscosity.data();
+  const double *f = f_s_new.data(), *mu = rheology.kinetic_viscosity.data(), *e = rheology.restitution.data();
   double *kappa = kappa_.data(), *mass = mass_.data(), *rhs = rhs_.data(), *t = theta_new.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+  for_each(grid_.cells, [=, &laws = laws_](std::ptrdiff_t c) {
     const bool grains = f[c] >= least_solid_fraction;
-    kappa[c] = grains ? closures::conductivity_to_viscosity * mu[c] : 0.0;
+    kappa[c] = grains ? laws.conductivity_to_viscosity(f[c], e[c]) * mu[c] : 0.0;
     mass[c] = grains ? 1.5 * f[c] * rho_s / dt : 0.0;
     rhs[c] = mass[c] * t[c];
   });
@@ -111,7 +128,7 @@ namespace {
 // Coefficients of the local balance of (7) in a cell, w = sqrt(Theta):
 //   3/2 f rho d(w^2)/dt = production - work w^2 - collisions w^3 - expansion w^2 - 3 drag w^2
 struct LocalBalance {
-  double collisions;  // [kg/m4]
+  double collisions;  // bumps of walls included [kg/m4]
   double expansion;   // the part of (23) that follows div u_s, of either sign [kg/m3 s]
   double work;        // P_s^K div u_s / Theta, of either sign; 0 without pressure work [kg/m3 s]
   double drag;        // beta of the cell [kg/m3 s]
@@ -119,34 +136,34 @@ struct LocalBalance {
 
 class LocalBalances {
  public:
-  LocalBalances(const Scene& scene, const Field& f_s, const Field& beta, const Field& restitution,
-                const StrainRate& strain)
+  LocalBalances(const Scene& scene, const closures::Collisions& laws, const Field& wall_loss,
+                const Field& f_s, const Field& beta, const Field& restitution, const StrainRate& strain)
       : rho_s_(scene.solid.density),
         d_s_(scene.solid.diameter),
-        f_max_(scene.contact.solid_fraction_max),
         work_(scene.model.pressure_work),
+        laws_(laws),
+        wall_loss_(wall_loss.empty() ? nullptr : wall_loss.data()),
         f_s_(f_s.data()),
         e_(restitution.data()),
         div_(strain.divergence.data()),
         beta_(beta.data()) {}
 
   LocalBalance operator()(std::ptrdiff_t c) const {
-    const double f = f_s_[c], e = e_[c], g0 = closures::radial_distribution(f, f_max_);
-    const double work = work_ ? closures::kinetic_pressure(f, 1.0, e, g0, rho_s_) * div_[c] : 0.0;
-    return {closures::collisional_dissipation_rate(f, e, g0, rho_s_, d_s_),
-            -3.0 * (1.0 - e * e) * f * f * rho_s_ * g0 * div_[c], work, beta_[c]};
+    const double f = f_s_[c], e = e_[c];
+    double collisions = laws_.dissipation_rate(f, e, rho_s_, d_s_);
+    if (wall_loss_) collisions += wall_loss_[c] * f / laws_.f_max * rho_s_ * laws_.g0(f);
+    const double expansion = -3.0 * (1.0 - e * e) * f * f * rho_s_ * laws_.g0(f) * div_[c];
+    return {collisions, expansion, work_ ? laws_.pressure(f, e, rho_s_) * div_[c] : 0.0, beta_[c]};
   }
 
   // mu_s^K f_s / sqrt(Theta) [kg/m2]
-  double viscosity(std::ptrdiff_t c) const {
-    const double g0 = closures::radial_distribution(f_s_[c], f_max_);
-    return f_s_[c] * closures::kinetic_viscosity(f_s_[c], 1.0, e_[c], g0, rho_s_, d_s_);
-  }
+  double viscosity(std::ptrdiff_t c) const { return laws_.viscosity(f_s_[c], 1.0, e_[c], rho_s_, d_s_); }
 
  private:
-  double rho_s_, d_s_, f_max_;
+  double rho_s_, d_s_;
   bool work_;
-  const double *f_s_, *e_, *div_, *beta_;
+  const closures::Collisions& laws_;
+  const double *wall_loss_, *f_s_, *e_, *div_, *beta_;
 };
 
 }  // namespace
@@ -158,7 +175,7 @@ void GranularTemperature::predict(double dt, const Field& theta, const Field& f_
                                   Field& predicted) const {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
-  const LocalBalances at(scene_, f_s, beta, restitution, strain);
+  const LocalBalances at(scene_, laws_, wall_loss_, f_s, beta, restitution, strain);
   const double *f = f_s.data(), *t = theta.data(), *sq = strain.squared.data(),
                *div = strain.divergence.data();
   double* out = predicted.data();
@@ -187,7 +204,7 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
                                             Field& theta_new) {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
-  const LocalBalances at(scene_, f_s_new, beta, restitution, strain);
+  const LocalBalances at(scene_, laws_, wall_loss_, f_s_new, beta, restitution, strain);
   const double *f0 = f_s.data(), *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
   double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
          *pressed = pressure_.data(), *excess = excess_.data(), *spared = spared_.data();

@@ -8,6 +8,7 @@
 // diameters.)
 #pragma once
 
+#include "solver/closures/collisions.hpp"
 #include "solver/grid/boundary.hpp"
 #include "solver/linear/scalar_solver.hpp"
 #include "solver/operators/rheology.hpp"
@@ -17,7 +18,7 @@ namespace granvof {
 
 // What the fluctuation energy 3/2 f_s rho_s Theta of the whole grid lost in a step [J].
 struct GranularLosses {
-  double collisions = 0.0;  // gamma_s^K of (23)
+  double collisions = 0.0;  // gamma_s^K of (23), and what bumps of walls take
   double drag = 0.0;        // 3 beta Theta
   double pressure = 0.0;    // P_s^K div u_s: what Theta pays for the work of the kinetic pressure
   double bounds = 0.0;      // taken away by the two stated bounds on Theta, see granular_temperature.cpp
@@ -56,6 +57,8 @@ class GranularTemperature {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
+  closures::Collisions laws_;
+  Field wall_loss_;  // bumpy_wall_loss() per height of the cells beside bumps [1/m]; empty without
   linear::ScalarSolver solver_;
   FaceField conductivity_;
   Field kappa_, mass_, rhs_;

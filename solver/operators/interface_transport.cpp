@@ -114,7 +114,7 @@ void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
 
 void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c,
                                  Field& f_c_end) {
-  boundary_.fill_liquid_share(alpha);
+  boundary_.fill_liquid_share(alpha, flux_c);
   interface_normal(alpha);
   double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] = a[c] * fc[c]; });

@@ -1,25 +1,34 @@
 #include "solver/operators/packing.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solver/closures/shear_dilatancy.hpp"
 
 namespace granvof {
 
-void shear_packing(const Grid& grid, const Contact& contact, double dt, const Field& f_s,
-                   const StrainRate& strain, Field& packing) {
-  const double *f = f_s.data(), *squared = strain.squared.data(), *divergence = strain.divergence.data();
+void shear_packing(const Grid& grid, const Scene& scene, double dt, const Field& f_s,
+                   const Rheology& rheology, const StrainRate& strain, Field& packing) {
+  const Contact& contact = scene.contact;
+  const bool by_rate = scene.model.critical_packing == CriticalPacking::by_rate;
+  const double rho_s = scene.solid.density, d_s = scene.solid.diameter;
+  const double *f = f_s.data(), *pressure = rheology.enduring_pressure.data();
+  const double* mu = by_rate ? rheology.pore_viscosity.data() : nullptr;
   double* p = packing.data();
-  for_each(grid.cells, [=, &contact](std::ptrdiff_t c) {
+  for_each(grid.cells, [=, &contact, &strain](std::ptrdiff_t c) {
     const double loosest = contact.solid_fraction_min;
     if (f[c] < loosest) {
       p[c] = loosest;
       return;
     }
-    const double deviator = std::max(squared[c] - divergence[c] * divergence[c] / 3.0, 0.0);
-    const double sheared = closures::sheared_packing(p[c], dt * std::sqrt(2.0 * deviator), contact);
-    p[c] = std::clamp(sheared, loosest, contact.solid_fraction_max);
+    const double rate = deviatoric_shear_rate(strain, c);
+    double critical = contact.critical_solid_fraction;
+    if (by_rate && pressure[c] > 0.0)
+      critical = closures::bounded_critical_packing(
+          closures::critical_packing(closures::mixed_inertial_number(rate, pressure[c], rho_s, d_s, mu[c]),
+                                     contact),
+          p[c], contact);
+    p[c] = std::clamp(closures::sheared_packing(p[c], dt * rate, critical, contact), loosest,
+                      contact.solid_fraction_max);
   });
 }
 

@@ -72,7 +72,7 @@ PlicTransport::PlicTransport(const Grid& grid, const Boundary& boundary)
 
 // One direction: alpha and f_c_ are both brought over the sweep.
 void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alpha, LiquidPassed& passed) {
-  boundary_.fill_liquid_share(alpha);
+  boundary_.fill_liquid_share(alpha, flux_c);
   boundary_.fill_scalar(f_c_);
   const std::ptrdiff_t s = grid_.stride(d);
   const double dt_h = dt / grid_.h[d];

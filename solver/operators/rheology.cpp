@@ -1,5 +1,7 @@
 #include "solver/operators/rheology.hpp"
 
+#include <cmath>
+
 #include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/drag.hpp"
 #include "solver/closures/restitution.hpp"
@@ -9,19 +11,56 @@
 #include "solver/operators/thin_layer.hpp"
 
 namespace granvof {
+namespace {
+
+bool has_bumps(const Grid& grid, const Boundary& boundary) {
+  for (int d = 0; d < grid.dim; ++d)
+    for (const bool upper : {false, true})
+      if (boundary.side(d, upper).bumps) return true;
+  return false;
+}
+
+}  // namespace
+
+// Of grains that the fluid between them stops: the rate of their shear is that of the old level, as for
+// friction.
+void Rheology::update_viscous_contacts(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                                       const Field& f_s, const Field& alpha, const StrainRate& strain) {
+  if (!scene.model.has_viscous_contacts()) return;
+  if (pore_viscosity.empty()) pore_viscosity = Field(grid);
+  const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
+  const double* a = alpha.data();
+  double* mu = pore_viscosity.data();
+  for_each(grid.cells, [=](std::ptrdiff_t c) { mu[c] = mixture(a[c], mu_l, mu_g); });
+  boundary.fill_scalar(pore_viscosity);
+  if (!scene.model.viscous_contact_pressure) return;
+  if (viscous_stress.empty()) viscous_stress = Field(grid);
+  const double* f = f_s.data();
+  double* stress = viscous_stress.data();
+  for_each(grid.cells, [=, &strain](std::ptrdiff_t c) {
+    stress[c] = f[c] < least_solid_fraction ? 0.0 : mu[c] * deviatoric_shear_rate(strain, c);
+  });
+}
 
 void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
-                      const Field& theta, const Field& alpha, const Field& p_s, const Field& packing) {
+                      const Field& theta, const Field& alpha, const Field& p_s, const Field& packing,
+                      const StrainRate& strain) {
   const bool in_part = scene.numerics.bed_surface == BedSurface::part_cells;
   if (in_part) part_cells.update(grid, scene, f_s, alpha, p_s);
   const Solid& solid = scene.solid;
   const Contact& contact = scene.contact;
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
-  const bool dilatancy = scene.model.dilatancy_pressure;
+  const closures::SolidLaw law(scene);
+  update_viscous_contacts(grid, scene, boundary, f_s, alpha, strain);
+  const double* viscous = viscous_stress.empty() ? nullptr : viscous_stress.data();
   const double *f = f_s.data(), *t = theta.data(), *a = alpha.data(), *weight = part_cells.resting.data(),
                *touching = packing.data();
   double *e = restitution.data(), *p = enduring_pressure.data(), *tan_psi = dilatancy_tangent.data();
-  const bool sheared = scene.model.shear_dilatancy;
+  const bool sheared = scene.model.shear_dilatancy && scene.model.dilatancy_friction;
+  const auto borne = [=, &law](std::ptrdiff_t c, double resting) {
+    return closures::enduring_pressure(f[c], {t[c], e[c], resting, touching[c], viscous ? viscous[c] : 0.0},
+                                       law);
+  };
   const double e0 = scene.model.frictional_restitution
                         ? closures::frictional_restitution(solid.restitution, solid.friction)
                         : solid.restitution;
@@ -30,8 +69,7 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
     if (f[c] < least_solid_fraction) return;
     e[c] =
         closures::effective_restitution(e0, t[c], solid.density, solid.diameter, mixture(a[c], mu_l, mu_g));
-    p[c] = closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, weight[c],
-                                       touching[c]);
+    p[c] = borne(c, weight[c]);
     if (sheared) tan_psi[c] = closures::dilatancy_tangent(touching[c], contact);
   });
   boundary.fill_scalar(restitution);
@@ -43,12 +81,12 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (sheared) boundary.fill_scalar(dilatancy_tangent);
   if (scene.model.agitation_drag) {
     double* beta = agitated_drag.data();
-    closures::with_drag_law(scene.model.drag_law, [&](auto law) {
+    closures::with_drag_law(scene.model.drag_law, [&](auto drag_law) {
       for_each(grid.cells, [=, &scene](std::ptrdiff_t c) {
         beta[c] = 0.0;
         if (p[c] <= 0.0) return;
-        const double drag =
-            closures::drag_coefficient(law, f[c], a[c], 0.0, scene.gas, scene.liquid, scene.solid.diameter);
+        const double drag = closures::drag_coefficient(drag_law, f[c], a[c], 0.0, scene.gas, scene.liquid,
+                                                       scene.solid.diameter);
         beta[c] = closures::agitated_drag(drag, f[c], p[c], scene.solid.density, scene.solid.diameter);
       });
     });
@@ -57,10 +95,8 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (in_part) {
     const double rho_l = scene.liquid.density, rho_g = scene.gas.density;
     double* side = free_side.data();
-    for_each(grid.cells, [=, &solid, &contact](std::ptrdiff_t c) {
-      const double without =
-          closures::enduring_pressure(f[c], t[c], e[c], solid.density, contact, dilatancy, 0.0, touching[c]);
-      const bool part = weight[c] > 0.0 && f[c] < touching[c] && without < p[c];
+    for_each(grid.cells, [=, &solid](std::ptrdiff_t c) {
+      const bool part = weight[c] > 0.0 && f[c] < touching[c] && borne(c, 0.0) < p[c];
       side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
     });
     boundary.exchange(free_side);
@@ -71,18 +107,21 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
 void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
                                         const Field& f_s, const Field& theta) {
   if (!scene.model.kinetic_viscosity) return;  // stays zero
-  const Solid& solid = scene.solid;
-  const double f_max = scene.contact.solid_fraction_max;
+  const closures::Collisions laws(scene);
+  const double rho_s = scene.solid.density, d_s = scene.solid.diameter;
   const double *f = f_s.data(), *t = theta.data(), *e = restitution.data();
   double* mu = kinetic_viscosity.data();
-  for_each(grid.cells, [=, &solid](std::ptrdiff_t c) {
-    mu[c] =
-        f[c] < least_solid_fraction
-            ? 0.0
-            : f[c] * closures::kinetic_viscosity(f[c], t[c], e[c], closures::radial_distribution(f[c], f_max),
-                                                 solid.density, solid.diameter);
+  for_each(grid.cells, [=, &laws](std::ptrdiff_t c) {
+    mu[c] = f[c] < least_solid_fraction ? 0.0 : laws.viscosity(f[c], t[c], e[c], rho_s, d_s);
   });
   boundary.fill_scalar(kinetic_viscosity);
+  if (!has_bumps(grid, boundary)) return;
+  if (bump_pressure.empty()) bump_pressure = Field(grid);
+  double* bump = bump_pressure.data();
+  for_each(grid.cells, [=, &laws](std::ptrdiff_t c) {
+    bump[c] = f[c] < least_solid_fraction ? 0.0 : laws.pressure(f[c], e[c], rho_s) * std::sqrt(t[c]);
+  });
+  boundary.fill_scalar(bump_pressure);
 }
 
 }  // namespace granvof

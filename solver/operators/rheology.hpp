@@ -3,6 +3,7 @@
 
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/bed_surface.hpp"
+#include "solver/operators/strain.hpp"
 
 namespace granvof {
 
@@ -11,12 +12,17 @@ struct Rheology {
   Field kinetic_viscosity;  // f_s mu_s^K [Pa s], eqs (16), (20); also f_s (zeta_s^K - 2/3 mu_s^K), see
                             // friction.hpp
   Field enduring_pressure;  // P_s^E [Pa], eqs (12)-(14)
-  Field dilatancy_tangent;  // tan(psi), added to the friction coefficient [-]; 0 without shear dilatancy
+  Field dilatancy_tangent;  // tan(psi), added to the friction coefficient [-]; 0 without dilatancy friction
   Field arrest_friction;    // least friction coefficient, see thin_layer.hpp [-]; 0 without thin-layer arrest
   Field agitated_drag;      // beta that agitation is dragged by [kg/m3 s]; 0 without agitation drag
   PartCells part_cells;     // grains at rest in partly filled cells; 0 with bed_surface = "whole-cells"
   Field free_side;          // +1, -1: grains at rest fill a part of the cell, and its upper, lower face is
                             // free; else 0 [-]
+  // Empty where the scene has none:
+  Field pore_viscosity;  // mu_c of the fluid between the grains, of laws of viscous contacts [Pa s]
+  Field viscous_stress;  // mu_c gamma of viscous_contact_pressure() [Pa]
+  Field bump_pressure;   // P_s^K / sqrt(Theta) at the Theta of the kinetic viscosity, beside bumpy walls [Pa
+                         // s/m]
 
   explicit Rheology(const Grid& grid)
       : restitution(grid),
@@ -28,14 +34,19 @@ struct Rheology {
         part_cells(grid),
         free_side(grid) {}
 
-  // All but the kinetic viscosity, with ghosts filled but for part_cells, from f_s, Theta, alpha, P_s and
-  // packing of the same level.
+  // All but the kinetic viscosity, with ghosts filled but for part_cells, from f_s, Theta, alpha, P_s,
+  // packing and strain of the same level.
   void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
-              const Field& theta, const Field& alpha, const Field& p_s, const Field& packing);
+              const Field& theta, const Field& alpha, const Field& p_s, const Field& packing,
+              const StrainRate& strain);
 
-  // The kinetic viscosity at `theta`, with ghosts filled; e must be up to date.
+  // The kinetic viscosity and the pressure on bumps at `theta`, with ghosts filled; e must be up to date.
   void update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
                                 const Field& f_s, const Field& theta);
+
+ private:
+  void update_viscous_contacts(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                               const Field& f_s, const Field& alpha, const StrainRate& strain);
 };
 
 }  // namespace granvof

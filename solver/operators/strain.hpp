@@ -1,6 +1,9 @@
 // Strain rate of a staggered velocity: S = (grad u + grad u^T) / 2.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "solver/grid/field.hpp"
 
 namespace granvof {
@@ -23,6 +26,13 @@ struct StrainRate {
   // The same for a part of the cells and their edges; other values stay as they are.
   void update(const Grid& grid, const FaceField& u, const Range& part);
 };
+
+// gamma = 2 ||S'|| of cell c [1/s], S' the deviator of S: the rate at which grains are sheared past each
+// other.
+inline double deviatoric_shear_rate(const StrainRate& strain, std::ptrdiff_t c) {
+  const double div = strain.divergence[c];
+  return std::sqrt(2.0 * std::max(strain.squared[c] - div * div / 3.0, 0.0));
+}
 
 // 2 S_de^2 = g^2 / 2 of cell c [1/s2], the mean over its four edges; g: shear of a plane on edges, s and t:
 // strides of its directions.

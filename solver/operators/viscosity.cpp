@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/closures/smagorinsky.hpp"
+#include "solver/closures/suspension.hpp"
 #include "solver/operators/edge_mean.hpp"
 #include "solver/operators/stress_power.hpp"
 
@@ -16,7 +17,8 @@ double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, co
       grid_.dim == 2 ? std::sqrt(grid_.h[0] * grid_.h[1]) : std::cbrt(grid_.h[0] * grid_.h[1] * grid_.h[2]);
   const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
   const double rho_l = liquid.density, rho_g = gas.density, mu_l = liquid.viscosity, mu_g = gas.viscosity;
-  const bool les = scene_.model.les;
+  const bool les = scene_.model.les, suspension = scene_.model.suspension_viscosity;
+  const double f_max = scene_.contact.solid_fraction_max;
   const double* f = f_s.data();
   const double* a = alpha.data();
   const double* sq = strain_.squared.data();
@@ -24,7 +26,9 @@ double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, co
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     const double rho = mixture(a[c], rho_l, rho_g);
     const double eddy = les ? closures::eddy_viscosity(rho, delta, sq[c]) : 0.0;
-    mu[c] = (1.0 - f[c]) * (mixture(a[c], mu_l, mu_g) + eddy);
+    const double molecular = mixture(a[c], mu_l, mu_g);
+    const double crowded = suspension ? closures::suspension_viscosity(f[c], f_max) : 1.0;
+    mu[c] = (1.0 - f[c]) * (molecular * crowded + eddy);
   });
   boundary.fill_scalar(viscosity_);
   const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {

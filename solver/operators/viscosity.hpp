@@ -12,8 +12,9 @@ class FluidViscosity {
   FluidViscosity(const Grid& grid, const Scene& scene)
       : grid_(grid), scene_(scene), strain_(grid), viscosity_(grid) {}
 
-  // f_c (mu_c + mu_t) of every cell from the old level; u, f_s, alpha with one ghost layer filled.
-  // Returns the largest kinematic viscosity [m2/s], which says whether a step bears the explicit term.
+  // f_c (mu_c + mu_t) of every cell from the old level, mu_c that of a suspension with suspension_viscosity;
+  // u, f_s, alpha with one ghost layer filled. Returns the largest kinematic viscosity [m2/s], which says
+  // whether a step bears the explicit term.
   double update(const Boundary& boundary, const FaceField& u_c, const Field& f_s, const Field& alpha);
 
   // Adds (1 / (f_c rho_c)) div(f_c (mu_c + mu_t)(grad u + grad u^T)) [m/s2] to component d.

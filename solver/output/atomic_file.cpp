@@ -1,9 +1,9 @@
 #include "solver/output/atomic_file.hpp"
 
 #include <cerrno>
-#include <fstream>
-#include <sstream>
+#include <new>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -13,6 +13,8 @@
 namespace granvof {
 
 namespace {
+
+constexpr std::size_t read_block = std::size_t{1} << 16U;
 
 std::string reason(int error) {
   return std::generic_category().message(error);
@@ -64,6 +66,7 @@ void sync(const Descriptor& file, const std::filesystem::path& path) {
 }
 
 void write_beside(const std::filesystem::path& path, std::string_view content) {
+  require_file(path, "write");  // the rename would put a file in the place of a device, such as /dev/null
   const auto draft = temporary(path);
   // What has the draft's name is of a run that was killed, or a link to somebody's file: never written into.
   ::unlink(draft.c_str());
@@ -90,7 +93,12 @@ void rename_into_place(const std::filesystem::path& path) {
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
   write_beside(path, content);
-  rename_into_place(path);
+  try {
+    rename_into_place(path);
+  } catch (...) {
+    ::unlink(temporary(path).c_str());
+    throw;
+  }
 }
 
 void overwrite_file(const std::filesystem::path& path, std::string_view content) {
@@ -105,23 +113,33 @@ void overwrite_file(const std::filesystem::path& path, std::string_view content)
   sync(file, path);
 }
 
-void require_file(const std::filesystem::path& path) {
+void require_file(const std::filesystem::path& path, const std::string& action) {
   std::error_code unknown;
   const std::filesystem::file_status status = std::filesystem::status(path, unknown);
   if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  throw OutputError("read", path,
+  throw OutputError(action, path,
                     std::filesystem::is_directory(status) ? reason(EISDIR) : "it is a device or a pipe");
 }
 
 std::string read_file(const std::filesystem::path& path) {
   require_file(path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw OutputError("read", path, reason(errno));
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (file.bad()) throw OutputError("read", path, reason(errno));
-  return std::move(content).str();
+  // Not to wait, should a pipe have taken its name since.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.valid()) throw OutputError("read", path, reason(errno));
+  std::string content;
+  try {
+    for (std::vector<char> block(read_block);;) {
+      const ssize_t size = ::read(file.get(), block.data(), block.size());
+      if (size == 0) return content;
+      if (size > 0) {
+        content.append(block.data(), static_cast<std::size_t>(size));
+      } else if (errno != EINTR) {
+        throw OutputError("read", path, reason(errno));
+      }
+    }
+  } catch (const std::bad_alloc&) {
+    throw OutputError("read", path, "there is no memory for it");
+  }
 }
 
 }  // namespace granvof

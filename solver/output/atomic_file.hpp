@@ -8,7 +8,8 @@
 namespace granvof {
 
 // Writes `content` beside `path`, flushes it to the disk and renames it over `path`.
-// Throws OutputError (disk full, no permission, ...); the file that was there before then stays as it was.
+// Throws OutputError (disk full, no permission, a device or a pipe in its place, ...); what was there before
+// then stays as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 // The same in two steps, for a caller that has something to do between them.
@@ -20,9 +21,9 @@ void rename_into_place(const std::filesystem::path& path);                      
 // leaves neither. Throws OutputError.
 void overwrite_file(const std::filesystem::path& path, std::string_view content);
 
-// Throws OutputError where `path` is there and no file: opening a pipe waits for its other end, a device may
-// have none.
-void require_file(const std::filesystem::path& path);
+// Throws OutputError ("cannot ACTION ...") where `path` is there and no file: opening a pipe waits for its
+// other end, a device may have none.
+void require_file(const std::filesystem::path& path, const std::string& action = "read");
 
 // Whole content of a file. Throws OutputError.
 std::string read_file(const std::filesystem::path& path);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* file_name = "fields.h5";
 constexpr const char* pieces_directory = "fields";
+constexpr const char* piece_object = "/instant";
 // Of the instants that there are a share of one in so many may be missing in the lists. Writing the lists
 // then takes so many times what writing them once takes, whatever the number of instants.
 constexpr std::size_t instants_per_unlisted = 16;
@@ -46,20 +49,51 @@ auto with_path(const char* verb, const fs::path& path, Action action) {
   }
 }
 
-std::vector<double> times_of(hid_t file) {
+std::string piece_name(std::size_t index) {
+  return fmt::format("{}/{}.h5", pieces_directory, group_name(index));
+}
+
+// The group of an instant, and the file that holds it where that is not fields.h5 itself.
+struct OpenInstant {
+  std::optional<hdf5::Handle> piece;
+  hdf5::Handle group;
+};
+
+// `file` is the open fields.h5 at `path`. Its link to another file is followed here and not by HDF5, which
+// would open whatever stands there, a pipe too.
+OpenInstant open_instant(hid_t file, const fs::path& path, std::size_t index) {
+  const auto name = group_name(index);
+  const auto link = hdf5::link_to_other_file(file, name);
+  if (!link) return {std::nullopt, hdf5::open_group(file, name)};
+  if (link->file != piece_name(index) || link->object != piece_object) {
+    throw std::runtime_error(fmt::format("{} links to {} in {}, allowed: {} in {}", name, link->object,
+                                         link->file, piece_object, piece_name(index)));
+  }
+  const auto piece_path = path.parent_path() / link->file;
+  hdf5::Handle piece = hdf5::open_for_reading(piece_path);
+  return with_path("read", piece_path, [&]() -> OpenInstant {
+    auto group = hdf5::open_group(piece, piece_object);
+    return {std::move(piece), std::move(group)};
+  });
+}
+
+std::vector<double> times_of(hid_t file, const fs::path& path) {
   std::vector<double> times;
   const auto count = hdf5::names_in(file).size();
   for (std::size_t index = 0; index < count; ++index)
-    times.push_back(hdf5::read_double_attribute(hdf5::open_group(file, group_name(index)), "time"));
+    times.push_back(hdf5::read_double_attribute(open_instant(file, path, index).group, "time"));
   return times;
 }
 
-// Copies one group of `source` to `target`; links to other files are followed.
-void copy_group(hid_t source, const std::string& name, hid_t target, const std::string& new_name) {
-  const auto group = hdf5::open_group(source, name);
-  if (H5Ocopy(group, ".", target, new_name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+// Copies one instant to `target`. Its attributes are written anew: those that refer to axes refer to places
+// in the file.
+void copy_group(const hdf5::Handle& group, hid_t target, const std::string& name) {
+  const hdf5::Handle copying(H5Pcreate(H5P_OBJECT_COPY), H5Pclose);
+  if (H5Pset_copy_object(copying, H5O_COPY_WITHOUT_ATTR_FLAG) < 0 ||
+      H5Ocopy(group, ".", target, name.c_str(), copying, H5P_DEFAULT) < 0) {
     throw std::runtime_error("group " + name + ": " + hdf5::last_error());
   }
+  describe_instant(hdf5::open_group(target, name), hdf5::read_double_attribute(group, "time"));
 }
 
 // Whether "fields/NAME" is the file of an instant >= first, or a draft of one.
@@ -93,10 +127,13 @@ FieldsFile::FieldsFile(fs::path directory, const Scene& scene)
     : directory_(std::move(directory)),
       scene_name_(scene.name),
       cells_(scene.grid.cells),
-      spacing_(scene.grid.spacing) {}
+      spacing_(scene.grid.spacing) {
+  // A slab of one cell is shown as thick as it is fine; how deep the tank is, its case says.
+  if (scene.dimensions == 2 && cells_[2] == 1) spacing_[2] = spacing_[0];
+}
 
 fs::path FieldsFile::piece(std::size_t index) const {
-  return directory_ / pieces_directory / (group_name(index) + ".h5");
+  return directory_ / piece_name(index);
 }
 
 FieldsFile FieldsFile::create(const fs::path& directory, const Scene& scene) {
@@ -110,11 +147,11 @@ void FieldsFile::check_instants(const fs::path& directory, std::span<const doubl
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(path);
   with_path("read", path, [&] {
-    const std::vector<double> there = times_of(file);
+    const std::vector<double> there = times_of(file, path);
     for (std::size_t index = 0; index < times.size(); ++index) {
       if (index < there.size() && there[index] == times[index]) {
-        (void)read_instant(file,
-                           group_name(index));  // a damaged instant would be carried into the joined file
+        // A damaged instant would be carried into the joined file.
+        (void)read_instant(file, open_instant(file, path, index).group);
         continue;
       }
       throw OutputError(
@@ -136,15 +173,14 @@ FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, std
     with_path("resume", path, [&] {
       fs::create_directories(directory / pieces_directory);
       for (std::size_t index = 0; index < times.size(); ++index) {
-        const auto name = group_name(index);
-        const auto group = hdf5::open_group(file, name);
+        const auto instant = open_instant(file, path, index);
         const auto target = result.piece(index);
         if (!fs::exists(target)) {  // fields.h5 has been joined: take the instant out again
           const auto memory = hdf5::create_in_memory();
-          copy_group(file, name, memory, "instant");
+          copy_group(instant.group, memory, "instant");
           write_file_atomically(target, hdf5::content_of(memory));
         }
-        result.instants_.push_back({times[index], hdf5::exists(group, "p_s")});
+        result.instants_.push_back({times[index], hdf5::exists(instant.group, "p_s")});
       }
     });
   }
@@ -179,7 +215,7 @@ void FieldsFile::append(const CellFields& fields) {
     if (error) throw OutputError("write", path, error.message());
     const hdf5::QuietErrors quiet;
     const auto memory = hdf5::create_in_memory();
-    write_instant(hdf5::create_group(memory, "instant"), fields);
+    write_instant(hdf5::create_group(memory, "instant"), fields, spacing_);
     return hdf5::content_of(memory);
   });
   write_file_atomically(path, content);
@@ -223,9 +259,8 @@ void FieldsFile::write_lists() {
     const auto memory = hdf5::create_in_memory();
     write_file_attributes(memory);
     for (std::size_t index = 0; index < instants_.size(); ++index) {
-      const auto target = fmt::format("{}/{}.h5", pieces_directory, group_name(index));
-      if (H5Lcreate_external(target.c_str(), "/instant", memory, group_name(index).c_str(), H5P_DEFAULT,
-                             H5P_DEFAULT) < 0) {
+      if (H5Lcreate_external(piece_name(index).c_str(), piece_object, memory, group_name(index).c_str(),
+                             H5P_DEFAULT, H5P_DEFAULT) < 0) {
         throw std::runtime_error(hdf5::last_error());
       }
     }
@@ -262,11 +297,12 @@ bool FieldsFile::join() {
 // HDF5 1.10 crashes where a write fails (an error of the disk): only to be called where that ends nothing
 // else.
 void FieldsFile::write_joined(const fs::path& draft) const {
-  const auto source = hdf5::open_for_reading(directory_ / file_name);
+  const auto path = directory_ / file_name;
+  const auto source = hdf5::open_for_reading(path);
   auto target = hdf5::open_for_writing(draft);
   write_file_attributes(target);
   for (std::size_t index = 0; index < instants_.size(); ++index)
-    copy_group(source, group_name(index), target, group_name(index));
+    copy_group(open_instant(source, path, index).group, target, group_name(index));
   if (!target.close()) throw OutputError("write", draft, hdf5::last_error());
 }
 
@@ -275,7 +311,9 @@ void FieldsFile::write_joined(const fs::path& draft) const {
 void FieldsFile::reserve_for_joining(const fs::path& draft) const {
   std::uintmax_t bytes = 0;
   for (std::size_t index = 0; index < instants_.size(); ++index) bytes += fs::file_size(piece(index)) + 4096;
-  const Descriptor file(::open(draft.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  std::error_code ignored;
+  fs::remove(draft, ignored);  // a link, or a pipe, that has its name
+  const Descriptor file(::open(draft.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.valid()) throw OutputError("write", draft, std::generic_category().message(errno));
   write_all(file, hdf5::content_of(hdf5::create_in_memory()), draft);
   if (const int error = ::posix_fallocate(file.get(), 0, static_cast<off_t>(bytes)); error != 0) {
@@ -286,19 +324,21 @@ void FieldsFile::reserve_for_joining(const fs::path& draft) const {
 std::vector<double> read_field_times(const fs::path& fields_h5) {
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(fields_h5);
-  return with_path("read", fields_h5, [&] { return times_of(file); });
+  return with_path("read", fields_h5, [&] { return times_of(file, fields_h5); });
 }
 
 CellFields read_fields(const fs::path& fields_h5, std::size_t index) {
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(fields_h5);
-  return with_path("read", fields_h5, [&] { return read_instant(file, group_name(index)); });
+  return with_path("read", fields_h5,
+                   [&] { return read_instant(file, open_instant(file, fields_h5, index).group); });
 }
 
 CellFields read_solid_fraction(const fs::path& fields_h5, std::size_t index) {
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(fields_h5);
-  return with_path("read", fields_h5, [&] { return read_solid_fraction_of(file, group_name(index)); });
+  return with_path("read", fields_h5,
+                   [&] { return read_solid_fraction_of(file, open_instant(file, fields_h5, index).group); });
 }
 
 }  // namespace granvof

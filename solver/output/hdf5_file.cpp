@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+
+#include "solver/output/atomic_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof::hdf5 {
@@ -30,8 +34,20 @@ Handle dataset_properties() {
   return properties;
 }
 
-Handle open_dataset(hid_t group, const std::string& name) {
-  return {checked(H5Dopen2(group, name.c_str(), H5P_DEFAULT), "dataset " + name), H5Dclose};
+// How a group or a dataset is to be reached: by no link into another file.
+Handle inside_this_file(hid_t access_class) {
+  Handle access(checked(H5Pcreate(access_class), "property list"), H5Pclose);
+  const auto refuse = [](const char*, const char*, const char*, const char*, unsigned*, hid_t,
+                         void*) -> herr_t { return -1; };
+  checked(H5Pset_elink_cb(access, refuse, nullptr), "property list");
+  return access;
+}
+
+// Throws unless an attribute holds one value: HDF5 writes as many as there are.
+void require_one(const Handle& attribute, const std::string& name) {
+  const Handle space(checked(H5Aget_space(attribute), "attribute " + name), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) != 1)
+    throw std::runtime_error("attribute " + name + ": it holds more or less than one value");
 }
 
 Handle open_attribute(hid_t object, const std::string& name) {
@@ -52,6 +68,15 @@ Handle scalar_space() {
 
 std::size_t points_of(const Handle& space) {
   return static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space), "dataspace"));
+}
+
+// A file may claim any size.
+std::vector<double> room_for(std::size_t values, const std::string& what) {
+  try {
+    return std::vector<double>(values);
+  } catch (const std::exception&) {  // bad_alloc, length_error
+    throw std::runtime_error(fmt::format("{}: no memory for {} values", what, values));
+  }
 }
 
 }  // namespace
@@ -91,14 +116,16 @@ std::string content_of(const Handle& file) {
 }
 
 Handle open_for_writing(const std::filesystem::path& path) {
+  require_file(path, "write");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   if (id < 0) throw OutputError("write", path, last_error());
   return {id, H5Fclose};
 }
 
 Handle open_for_reading(const std::filesystem::path& path) {
+  require_file(path);
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) throw OutputError("read", path, "there is no such file");
+  if (!std::filesystem::exists(path, none)) throw OutputError("read", path, "there is no such file");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw OutputError("read", path, last_error());
   return {id, H5Fclose};
@@ -110,7 +137,20 @@ Handle create_group(hid_t parent, const std::string& name) {
 }
 
 Handle open_group(hid_t parent, const std::string& name) {
-  return {checked(H5Gopen2(parent, name.c_str(), H5P_DEFAULT), "group " + name), H5Gclose};
+  return {checked(H5Gopen2(parent, name.c_str(), inside_this_file(H5P_GROUP_ACCESS)), "group " + name),
+          H5Gclose};
+}
+
+std::optional<OtherFile> link_to_other_file(hid_t group, const std::string& name) {
+  H5L_info_t link;
+  checked(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), "link " + name);
+  if (link.type != H5L_TYPE_EXTERNAL) return std::nullopt;
+  std::vector<char> value(link.u.val_size);
+  checked(H5Lget_val(group, name.c_str(), value.data(), value.size(), H5P_DEFAULT), "link " + name);
+  const char* file = nullptr;
+  const char* object = nullptr;
+  checked(H5Lunpack_elink_val(value.data(), value.size(), nullptr, &file, &object), "link " + name);
+  return OtherFile{file, object};
 }
 
 std::vector<std::string> names_in(hid_t group) {
@@ -164,28 +204,35 @@ void write_attribute(hid_t object, const std::string& name, const std::string& v
 }
 
 double read_double_attribute(hid_t object, const std::string& name) {
+  const auto attribute = open_attribute(object, name);
+  require_one(attribute, name);
   double value = 0.0;
-  checked(H5Aread(open_attribute(object, name), H5T_NATIVE_DOUBLE, &value), "attribute " + name);
+  checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "attribute " + name);
   return value;
 }
 
 std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
+  const auto attribute = open_attribute(object, name);
+  require_one(attribute, name);
   std::int64_t value = 0;
-  checked(H5Aread(open_attribute(object, name), H5T_NATIVE_INT64, &value), "attribute " + name);
+  checked(H5Aread(attribute, H5T_NATIVE_INT64, &value), "attribute " + name);
   return value;
 }
 
 std::vector<double> read_double_array_attribute(hid_t object, const std::string& name) {
   const auto attribute = open_attribute(object, name);
   const Handle space(checked(H5Aget_space(attribute), "attribute " + name), H5Sclose);
-  std::vector<double> values(points_of(space));
+  auto values = room_for(points_of(space), "attribute " + name);
   checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()), "attribute " + name);
   return values;
 }
 
 std::string read_string_attribute(hid_t object, const std::string& name) {
   const auto attribute = open_attribute(object, name);
+  require_one(attribute, name);
   const Handle type(checked(H5Aget_type(attribute), "attribute " + name), H5Tclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    throw std::runtime_error("attribute " + name + ": it is no text of a fixed length");
   std::string value(H5Tget_size(type), '\0');
   checked(H5Aread(attribute, type, value.data()), "attribute " + name);
   value.resize(std::min(value.size(), value.find('\0')));
@@ -221,7 +268,7 @@ void write_doubles(hid_t group, const std::string& name, std::span<const double>
 std::vector<double> read_doubles(hid_t group, const std::string& name) {
   const auto dataset = open_dataset(group, name);
   const Handle space(checked(H5Dget_space(dataset), "dataset " + name), H5Sclose);
-  std::vector<double> values(points_of(space));
+  auto values = room_for(points_of(space), "dataset " + name);
   checked(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           "dataset " + name);
   return values;
@@ -234,6 +281,25 @@ std::vector<hsize_t> shape_of(hid_t group, const std::string& name) {
       static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space), "dataspace")));
   checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "dataspace");
   return shape;
+}
+
+// Values that lie in another file are refused: see the header.
+Handle open_dataset(hid_t group, const std::string& name) {
+  Handle dataset(
+      checked(H5Dopen2(group, name.c_str(), inside_this_file(H5P_DATASET_ACCESS)), "dataset " + name),
+      H5Dclose);
+  const Handle made(checked(H5Dget_create_plist(dataset), "dataset " + name), H5Pclose);
+  const bool elsewhere = H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) != 0;
+  if (elsewhere) throw std::runtime_error("dataset " + name + ": its values lie in another file");
+  return dataset;
+}
+
+void make_scale(hid_t dataset, const std::string& name) {
+  checked(H5DSset_scale(dataset, name.c_str()), "scale " + name);
+}
+
+void attach_scale(hid_t dataset, hid_t scale, unsigned dimension) {
+  checked(H5DSattach_scale(dataset, scale, dimension), "scale of a dataset");
 }
 
 }  // namespace granvof::hdf5

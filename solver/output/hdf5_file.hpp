@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,13 +60,20 @@ std::string last_error();
 // Creates a file that exists in memory only. content_of() gives the bytes that it would have on disk.
 Handle create_in_memory();
 std::string content_of(const Handle& file);
-// An existing file. Throws OutputError.
+// An existing file, a regular one. Throws OutputError.
 Handle open_for_writing(const std::filesystem::path& path);
 Handle open_for_reading(const std::filesystem::path& path);
 
-// Everything below throws std::runtime_error with HDF5's message; callers add the path.
+// Everything below throws std::runtime_error with HDF5's message; callers add the path. No other file is ever
+// opened: HDF5 would open whatever has the name that a file holds (a pipe, on which it waits), and look for
+// it in more than one folder. A link that leads elsewhere, or values that lie there, are a failure.
 Handle create_group(hid_t parent, const std::string& name);
 Handle open_group(hid_t parent, const std::string& name);
+// Where a link of `group` that leads into another file leads; nothing where it does not.
+struct OtherFile {
+  std::string file, object;
+};
+std::optional<OtherFile> link_to_other_file(hid_t group, const std::string& name);
 std::vector<std::string> names_in(hid_t group);  // ascending
 std::vector<std::string> attribute_names(hid_t object);
 bool exists(hid_t group, const std::string& name);
@@ -88,5 +96,9 @@ void write_doubles(hid_t group, const std::string& name, std::span<const double>
 // All values of a dataset of any shape, as double.
 std::vector<double> read_doubles(hid_t group, const std::string& name);
 std::vector<hsize_t> shape_of(hid_t group, const std::string& name);
+Handle open_dataset(hid_t group, const std::string& name);
+// Makes a one-dimensional dataset a dimension scale, and the scale of a dimension of another dataset.
+void make_scale(hid_t dataset, const std::string& name);
+void attach_scale(hid_t dataset, hid_t scale, unsigned dimension);
 
 }  // namespace granvof::hdf5

@@ -28,7 +28,12 @@ namespace {
 
 }  // namespace
 
+void expect_to_be_told_of_ends() {
+  std::signal(SIGCHLD, SIG_DFL);
+}
+
 bool succeeds_in_own_process(const std::function<void()>& work) {
+  expect_to_be_told_of_ends();
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) return false;
   if (child == 0) work_and_end(work, parent);

@@ -10,4 +10,8 @@ namespace granvof {
 // closed for it. It does not outlive this process.
 bool succeeds_in_own_process(const std::function<void()>& work);
 
+// Before a process is made whose end is waited for: a caller that ignores SIGCHLD has this process do so too,
+// and how the other ended would not be told.
+void expect_to_be_told_of_ends();
+
 }  // namespace granvof

@@ -36,6 +36,13 @@ std::string_view exit_state_name(ExitState state) {
   return "";
 }
 
+// "running" and "finished" are their own kind.
+std::string_view kind_of(const RunExit& exit) {
+  if (exit.state == ExitState::failed) return name_of(exit.kind.value_or(ExitKind::error));
+  if (exit.state == ExitState::stopped) return name_of(exit.kind.value_or(ExitKind::signal));
+  return exit_state_name(exit.state);
+}
+
 ordered_json resumption_json(const Resumption& resumption) {
   ordered_json changes = ordered_json::array();
   for (const CaseChange& change : resumption.changes)
@@ -92,6 +99,11 @@ ordered_json host_json() {
           {"build_type", build.build_type}};
 }
 
+// Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
+std::string text_of(const ordered_json& json) {
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
@@ -144,14 +156,27 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
   }
   json["files"] = files_json(files);
   json["exit"] = {{"state", exit_state_name(exit.state)},
+                  {"kind", kind_of(exit)},
                   {"reason", exit.reason},
                   {"time", progress.simulated_time},
                   {"date", iso_date_now()},
                   {"resume_from", or_null(files.checkpoint)}};
   json["host"] = host_json();
   json["resolved_case"] = scene.resolved;
-  // Paths and arguments may hold any bytes; what is not UTF-8 is replaced.
-  return sealed(json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  return sealed(text_of(json));
+}
+
+std::optional<std::string> ended_record_text(const std::string& run_json, const RunExit& exit) {
+  auto json = ordered_json::parse(run_json, nullptr, false);
+  if (seal_of(run_json) != Seal::whole || !json.is_object() || !json.contains("exit")) return std::nullopt;
+  ordered_json& end = json["exit"];
+  if (end.value("state", "") != exit_state_name(ExitState::running)) return std::nullopt;
+  end["state"] = exit_state_name(exit.state);
+  end["kind"] = kind_of(exit);
+  end["reason"] = exit.reason;
+  end["date"] = iso_date_now();
+  json.erase("sha256");
+  return sealed(text_of(json));
 }
 
 std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json) {
@@ -180,6 +205,28 @@ std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_js
   } catch (const ordered_json::exception&) {
     return std::nullopt;
   }
+}
+
+std::string_view name_of(ExitKind kind) {
+  switch (kind) {
+    case ExitKind::step_collapse:
+      return "step collapse";
+    case ExitKind::not_finite:
+      return "not finite";
+    case ExitKind::alarm:
+      return "alarm";
+    case ExitKind::output:
+      return "output";
+    case ExitKind::error:
+      return "error";
+    case ExitKind::signal:
+      return "signal";
+    case ExitKind::cpu_limit:
+      return "CPU limit";
+    case ExitKind::wall_clock_limit:
+      return "wall-clock limit";
+  }
+  return "";
 }
 
 std::string iso_date_now() {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/output/case_changes.hpp"
@@ -27,6 +28,19 @@ struct LedgerTerm {
   bool never_gains = false;
   std::string label, meaning, measured_in;
 };
+
+// Why a run failed or was stopped, for programs: `exit.kind` of run.json, whose names are those of name_of().
+enum class ExitKind {
+  step_collapse,     // no step above dt_min was accepted
+  not_finite,        // the same, and the last one tried gave a field that is not finite
+  alarm,             // a monitor passed a limit beyond which there is no result
+  output,            // its output could not be written
+  error,             // anything else
+  signal,            // it was asked to end
+  cpu_limit,         // by the limit of its CPU time (SIGXCPU)
+  wall_clock_limit,  // by the limit it was given itself (--stop-after)
+};
+std::string_view name_of(ExitKind kind);
 
 // What is known before the first step.
 struct RunStart {
@@ -65,6 +79,8 @@ struct RunProgress {
 struct RunExit {
   ExitState state = ExitState::running;
   std::string reason;  // empty unless failed or stopped
+  std::optional<ExitKind> kind =
+      std::nullopt;  // none: an error where it failed, a signal where it was stopped
 };
 
 struct Resumption {
@@ -91,6 +107,10 @@ struct FilesWritten {
 // The text of run.json, sealed (seal.hpp). Numbers that are not finite become null.
 std::string run_record_text(const Scene& scene, const RunRecord& record, const RunProgress& progress,
                             const FilesWritten& files, const RunExit& exit);
+
+// A run.json that says "running" with another end: the program that wrote it was ended before it could write
+// its own. Nothing where it states an end already, or is no whole run.json.
+std::optional<std::string> ended_record_text(const std::string& run_json, const RunExit& exit);
 
 // What resuming and overwriting need of an existing run.json; nullopt if the file is not a granvof run.json.
 // Throws OutputError where something in it was changed since it was written.

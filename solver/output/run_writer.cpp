@@ -25,7 +25,7 @@ constexpr const char* series_name = "series.csv";
 constexpr const char* record_name = "run.json";
 
 // What a run leaves in its directory beside run.json and its fields, and drafts of a run that was killed.
-constexpr std::array owned_names = {"checkpoint.h5", series_name};
+constexpr std::array owned_names = {"checkpoint.h5", series_name, "run.log"};
 
 void remove_owned(const fs::path& directory) {
   for (const char* name : owned_names) {
@@ -220,18 +220,32 @@ void RunWriter::finish(const RunProgress& progress, const RunExit& exit) {
   write_record(progress, exit);
 }
 
-void RunWriter::give_up(const RunProgress& progress, const std::string& reason) noexcept {
+void RunWriter::give_up(const RunProgress& progress, const std::string& reason, ExitKind kind) noexcept {
   if (!begun_) return;  // nothing of this run is on the disk, and what is there is another's
-  const RunExit exit{ExitState::failed, reason};
+  const RunExit exit{ExitState::failed, reason, kind};
   try {
-    try {
-      write_record(progress, exit);
-    } catch (const OutputError&) {
-      overwrite_file(directory_ / record_name, run_record_text(scene_, record_, progress, files(), exit));
-    }
+    replace_record(run_record_text(scene_, record_, progress, files(), exit));
     if (fields_) fields_->bring_up_to_date();
   } catch (const std::exception&) {
     return;  // the caller has said on stderr what is wrong
+  }
+}
+
+void RunWriter::note_end_of_copy(const std::string& reason) noexcept {
+  try {
+    const auto text = ended_record_text(read_file(directory_ / record_name), {ExitState::failed, reason});
+    if (text) replace_record(*text);
+  } catch (const std::exception&) {
+    return;  // as above
+  }
+}
+
+// On a full disk too.
+void RunWriter::replace_record(const std::string& text) {
+  try {
+    write_file_atomically(directory_ / record_name, text);
+  } catch (const OutputError&) {
+    overwrite_file(directory_ / record_name, text);
   }
 }
 

@@ -1,4 +1,5 @@
-// The run directory: series.csv, fields.h5, fields.xdmf, run.json and checkpoint.h5.
+// The run directory: series.csv, fields.h5, fields.xdmf, run.json and checkpoint.h5; run.log is
+// run/run_log.hpp's.
 //
 // Nothing in the directory is touched before the first write of any kind; a run that fails while it is being
 // set up leaves an earlier run as it was. Every file on disk is complete at every moment (series.csv up to
@@ -51,7 +52,11 @@ class RunWriter {
   void finish(const RunProgress& progress, const RunExit& exit);
   // Instead of finish() where that or another call has thrown: run.json says why, if it can be written at
   // all.
-  void give_up(const RunProgress& progress, const std::string& reason) noexcept;
+  void give_up(const RunProgress& progress, const std::string& reason,
+               ExitKind kind = ExitKind::error) noexcept;
+  // Where a copy of this process wrote on, and was ended before it could say how: run.json, as the copy left
+  // it, with this end, unless it states one.
+  void note_end_of_copy(const std::string& reason) noexcept;
 
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
   // Time of the checkpoint on the disk [s]; none yet, none.
@@ -63,6 +68,7 @@ class RunWriter {
   void start_fresh();
   void start_resumed(double time);
   void write_record(const RunProgress& progress, const RunExit& exit);
+  void replace_record(const std::string& text);
   FilesWritten files() const;
 
   std::filesystem::path directory_;

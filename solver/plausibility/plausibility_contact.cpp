@@ -23,7 +23,10 @@ std::vector<Row> contact_rows() {
   const auto shear = model([](const Model& m) { return m.shear_dilatancy; });
   const auto arrest = model([](const Model& m) { return m.thin_layer_arrest; });
   const auto inertial = model([](const Model& m) { return m.friction_law == FrictionLaw::inertial; });
-  const auto either = [=](const Scene& s) { return arrest(s) || inertial(s); };
+  const auto viscous = model([](const Model& m) { return m.friction_law == FrictionLaw::viscous; });
+  const auto either = [=](const Scene& s) { return arrest(s) || inertial(s) || viscous(s); };
+  const auto by_rate = model(
+      [](const Model& m) { return m.shear_dilatancy && m.critical_packing == CriticalPacking::by_rate; });
   const auto dilatancy = model([](const Model& m) { return m.dilatancy_pressure; });
   const auto friction = model([](const Model& m) { return m.contact_friction; });
   return {
@@ -53,6 +56,10 @@ std::vector<Row> contact_rows() {
           Usual{0.05, steepest}, "the tangent of an angle; degrees?"),
       row("contact.inertial_number", "", of_bed([](const Contact& c) { return c.inertial_number; }),
           Usual{0.01, 2.0}, "glass beads have 0.28"),
+      row("contact.dilatancy_rate", "", of_bed([](const Contact& c) { return c.dilatancy_rate; }),
+          Usual{0.1, 5.0}, "suspensions of spheres have 1"),
+      row("contact.viscous_number", "", of_bed([](const Contact& c) { return c.viscous_number; }),
+          Usual{5e-4, 0.05}, "spheres have 0.005"),
       row("contact.stop_length", "", of_bed([](const Contact& c) { return c.stop_length; }), Usual{0.3, 20.0},
           "in grain diameters; glass beads have 1.65"),
       idle(
@@ -62,11 +69,17 @@ std::vector<Row> contact_rows() {
           "contact.dilatancy_slope", [](const Contact& c) { return c.dilatancy_slope; }, shear,
           "model.shear_dilatancy"),
       idle(
+          "contact.dilatancy_rate", [](const Contact& c) { return c.dilatancy_rate; }, by_rate,
+          "model.shear_dilatancy and model.critical_packing = \"by-rate\""),
+      idle(
+          "contact.viscous_number", [](const Contact& c) { return c.viscous_number; }, viscous,
+          "model.friction_law = \"viscous\""),
+      idle(
           "contact.stop_length", [](const Contact& c) { return c.stop_length; }, arrest,
           "model.thin_layer_arrest"),
       idle(
           "contact.fast_friction", [](const Contact& c) { return c.fast_friction; }, either,
-          "model.friction_law = \"inertial\" or model.thin_layer_arrest"),
+          "model.friction_law = \"inertial\" or \"viscous\", or model.thin_layer_arrest"),
       idle(
           "contact.inertial_number", [](const Contact& c) { return c.inertial_number; }, inertial,
           "model.friction_law = \"inertial\""),

@@ -1,7 +1,9 @@
-// The program granvof: run, check, restate and keys. Exit codes: 0 done, 1 the run failed, 2 bad input.
+// The program granvof: run, check, report, restate and keys. Exit codes: 0 done, 1 the run failed or was
+// stopped by a signal, 2 bad input, 3 the run was stopped at its wall-clock limit (--stop-after).
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,13 +15,16 @@
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/build_info.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/program/report.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
 #include "solver/scene/cost_estimate.hpp"
+#include "solver/scene/duration.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/restate.hpp"
@@ -36,6 +41,7 @@ struct Arguments {
   granvof::RunOptions run;
   granvof::UnitFactors factors;
   std::string picture;
+  std::vector<std::string> directories;
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -98,13 +104,25 @@ int keys() {
   return 0;
 }
 
+// What is wrong with a duration, for a person; empty where nothing is.
+std::string duration_fault(const std::string& text) {
+  try {
+    granvof::read_duration(text);
+    return "";
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+}
+
 // One line; a misspelt subcommand is named, where the library only says that one is required.
 std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
-  return fmt::format(
-      "granvof: {} (granvof --help says what is allowed)\n",
-      misspelt ? fmt::format("got {}, allowed: run, check, restate, keys", left.front()) : error.what());
+  const std::string what =
+      misspelt ? fmt::format("got {}, allowed: run, check, report, restate, keys", left.front())
+               : error.what();
+  return fmt::format("granvof: {} (granvof --help says what is allowed)\n",
+                     granvof::case_file::printable(what, longest_message));
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -119,9 +137,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& run_command = *app.add_subcommand("run", "Run a case and write its results");
   add_case(run_command, arguments);
   std::string out;
-  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")
-      ->type_name("DIR")
-      ->check([](const std::string& dir) { return dir.empty() ? "got \"\", allowed: a directory" : ""; });
+  run_command.add_option("--out", out, "Run directory, by default out/runs/NAME")->type_name("DIR");
   run_command.add_option("--threads", arguments.run.threads, "Threads")
       ->capture_default_str()
       ->check(CLI::Range(1, most_threads))
@@ -130,6 +146,12 @@ int parse_and_run(int argc, char** argv) {
       run_command.add_flag("--resume", arguments.run.resume, "Go on from the run directory's checkpoint");
   run_command.add_flag("--force", arguments.run.force, "Replace a run of another case in the run directory")
       ->excludes(resume);
+  std::string stop_after;
+  run_command
+      .add_option("--stop-after", stop_after,
+                  "Stop after so much wall-clock time, as 45s or 3h50m: checkpoint, exit code 3")
+      ->type_name("TIME")
+      ->check([](const std::string& text) { return duration_fault(text); });
   CLI::App& check_command =
       *app.add_subcommand("check", "Check a case and print it in full, defaults filled in");
   add_case(check_command, arguments);
@@ -137,6 +159,11 @@ int parse_and_run(int argc, char** argv) {
       .add_option("--picture", arguments.picture,
                   "Draw the start: tank, liquid, bed, gate, sides, grid (SVG)")
       ->type_name("FILE");
+  CLI::App& report_command =
+      *app.add_subcommand("report", "Film, plots and a page of runs: DIR/report/report.html");
+  report_command.add_option("directory", arguments.directories, "Run directories")
+      ->required()
+      ->type_name("DIR");
   CLI::App& restate_command = *app.add_subcommand(
       "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
   add_case(restate_command, arguments);
@@ -149,14 +176,17 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& keys_command =
       *app.add_subcommand("keys", "Print the reference table of a case's keys (Markdown)");
 
+  granvof::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
   arguments.run.out = out;
+  if (!stop_after.empty()) arguments.run.stop_after = granvof::read_duration(stop_after);
   if (keys_command.parsed()) return keys();
   if (check_command.parsed()) return check(arguments);
+  if (report_command.parsed()) granvof::make_report(arguments.directories);
   if (restate_command.parsed()) return restate(arguments);
   return run(arguments);
 }
@@ -164,6 +194,11 @@ int parse_and_run(int argc, char** argv) {
 // Messages are stderr's: stdout holds what was asked for.
 void send_messages_to_stderr() {
   spdlog::set_default_logger(spdlog::stderr_color_mt("granvof"));
+}
+
+int say(const std::exception& error, int code) {
+  fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
+  return code;
 }
 
 }  // namespace
@@ -175,14 +210,14 @@ int main(int argc, char** argv) {
     const int code = parse_and_run(argc, argv);
     granvof::require_stdout_written();
     return code;
-  } catch (const granvof::CaseError& error) {
+  } catch (const granvof::CaseError& error) {  // a line for each fault, made printable where it was found
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
   } catch (const granvof::OutputError& error) {
-    fmt::print(stderr, "granvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
-    return bad_input;
+    return say(error, bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {  // such as a link to itself
+    return say(error, bad_input);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "granvof: {}\n", error.what());
-    return 1;
+    return say(error, 1);
   }
 }

@@ -56,6 +56,8 @@ std::string kind_of(const Side& side) {
       return "no-slip";
     case WallKind::coulomb:
       return fmt::format("coulomb {:g}", side.solid.friction);
+    case WallKind::bumpy:
+      return fmt::format("bumpy {:g}", side.solid.bumpiness);
   }
   return "";
 }

@@ -16,8 +16,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+from granvof_files import fields_of, is_there, required
 
 try:
     import pandas
@@ -58,11 +59,11 @@ def load(directory, fields=True):
     series, units = read_series(directory / "series.csv")
     facts = {}
     for name in ("run.json", "record.json"):
-        if (directory / name).exists():
+        if is_there(directory / name):
             facts = read_facts(directory / name)
             break
     data = None
-    if fields and (directory / "fields.h5").exists():
+    if fields and is_there(directory / "fields.h5"):
         data = read_fields(directory / "fields.h5")
         units |= {name: unit for name, (unit, _) in FIELDS.items()}
     return Run(directory, series, data, facts, units)
@@ -70,7 +71,7 @@ def load(directory, fields=True):
 
 def read_facts(path):
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads(required(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise NotARun(f"{path}: {error}") from error
 
@@ -78,7 +79,7 @@ def read_facts(path):
 def read_series(path):
     """Columns by their names without units, and the units; an empty field is NaN."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(required(path), newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))
         heads = [re.fullmatch(r"(.*\S) \[(.*)\]", head).groups() for head in rows[0]]
         values = np.array([[float(text) if text else np.nan for text in row] for row in rows[1:]], dtype=float)
@@ -98,7 +99,7 @@ def read_series(path):
 def read_fields(path):
     """All instants of a fields.h5, at the centres of the cells."""
     try:
-        with h5py.File(path, "r") as file:
+        with fields_of(path) as file:
             groups = sorted((group for group in file.values() if "time" in group.attrs), key=lambda group: group.attrs["time"])
             time = np.array([float(group.attrs["time"]) for group in groups])
             names = [name for name in FIELDS if groups and all(name in group for group in groups)]

@@ -21,14 +21,15 @@ double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const St
   const double *f = fraction_of_law(now, next).data(), *theta = now.theta.data(),
                *packing = now.packing.data(), *e = trace.rheology.restitution.data(),
                *resting = trace.rheology.part_cells.resting.data(), *div = trace.strain.divergence.data();
-  const Contact& contact = scene_.contact;
-  const double rho_s = scene_.solid.density;
-  const bool dilatancy = scene_.model.dilatancy_pressure;
-  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=, &contact](std::ptrdiff_t c) {
-           if (!(theta[c] > 0.0 && f[c] > 0.0) && resting[c] == 0.0) return 0.0;
-           return closures::flow_pressure(f[c], theta[c], e[c], rho_s, contact, dilatancy, resting[c],
-                                          packing[c])
-                      .value *
+  const Field& stress = trace.rheology.viscous_stress;
+  const double* viscous = stress.empty() ? nullptr : stress.data();
+  const closures::SolidLaw law(scene_);
+  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=, &law](std::ptrdiff_t c) {
+           const closures::GrainsOfCell cell{theta[c], e[c], resting[c], packing[c],
+                                             viscous != nullptr ? viscous[c] : 0.0};
+           if (theta[c] == 0.0 && resting[c] == 0.0 && cell.viscous_stress == 0.0) return 0.0;
+           return (closures::flow_pressure(f[c], cell, law).value +
+                   closures::viscous_pressure(f[c], cell, law).value) *
                   div[c];
          });
 }

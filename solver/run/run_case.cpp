@@ -1,30 +1,36 @@
 #include "solver/run/run_case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/output/build_info.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/output_schedule.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/output/stop_signals.hpp"
 #include "solver/run/alarms.hpp"
-#include "solver/run/checkpoint_state.hpp"
+#include "solver/run/closing_line.hpp"
 #include "solver/run/memory_demand.hpp"
-#include "solver/run/monitors.hpp"
 #include "solver/run/progress_line.hpp"
+#include "solver/run/run_log.hpp"
 #include "solver/run/snapshot.hpp"
-#include "solver/run/step_control.hpp"
-#include "solver/run/time_step.hpp"
+#include "solver/run/time_loop.hpp"
+#include "solver/scene/duration.hpp"
 
 namespace granvof {
 namespace {
 
 double core_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::vector<Column> monitor_columns() {
@@ -48,20 +54,14 @@ std::vector<LedgerTerm> ledger() {
   return terms;
 }
 
-// One run: everything that lives from the first step to the last.
+// One run: what is done with the steps of the time loop.
 class Run {
  public:
   Run(const Scene& scene, const RunOptions& options)
       : scene_(scene),
         options_(options),
-        grid_(scene),
-        boundary_(grid_, communicator_),
-        step_(grid_, scene, boundary_, communicator_),
-        control_(grid_, scene),
-        now_(initial_state(grid_, scene, boundary_)),
-        next_(grid_),
-        monitors_(grid_, scene, now_),
-        start_energy_(now_.energy),
+        loop_(scene),
+        start_energy_(loop_.now().energy),
         alarms_(scene, start_energy_),
         writer_(open_writer()),
         progress_line_(options.progress, scene) {}
@@ -69,44 +69,40 @@ class Run {
   int go();  // to the end; the exit code
 
  private:
+  using Ending = TimeLoop::Ending;
+
   RunWriter open_writer();
-  int loop();
-  bool advance();  // one accepted step; false if the run cannot go on, see trouble_
+  int steps();
+
+  // What the time loop is observed by, in this order.
+  std::optional<Ending> write_what_is_due();
+  std::optional<Ending> raise_alarms();
+  std::optional<Ending> end_of_scene() const;
+  std::optional<Ending> write_checkpoint_in_time();
+  std::optional<Ending> show_progress();
+  std::optional<Ending> asked_to_stop() const;
+
   // Rows and fields between that state and the present one.
   void write_output(const State& earlier, const std::vector<DueOutput>& due_now);
-  void step_back();  // to the state before the last step
-  void checkpoint();
   RunProgress progress() const;
-  enum class LastStep { kept, undone };
-  int finish(ExitState state, const std::string& reason, LastStep last_step = LastStep::kept);
-  int give_up(const std::string& reason);
+  int finish(const Ending& ending);
+  int give_up(ExitKind kind, const std::string& reason);
   std::string what_is_left() const;
 
   const Scene& scene_;
   const RunOptions& options_;
-  SerialCommunicator communicator_;
-  Grid grid_;
-  Boundary boundary_;
-  TimeStep step_;
-  StepControl control_;
-  State now_, next_;  // after a step next_ holds the state before it
-  Monitors monitors_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point launched_ = Clock::now();
+  TimeLoop loop_;
   EnergyTerms start_energy_;  // of the scene's start, whatever it is resumed from
   Alarms alarms_;
-  RunCounters counters_;
-  struct Marks {
-    RunCounters counters;
-    Monitors::Values monitors{};
-    double dt = 0.0;
-  } before_;  // those of the state before the last step
-  StepReport last_;
-  std::string trouble_;
   bool begins_ = true;  // not resumed
   RunWriter writer_;
+  RunLog log_;
+  Scalars last_row_;  // of series.csv
   ProgressLine progress_line_;
   double started_core_ = core_seconds();
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(),
-                                        last_checkpoint_ = started_;
+  Clock::time_point started_ = Clock::now(), last_checkpoint_ = started_;  // of the steps
 };
 
 RunWriter Run::open_writer() {
@@ -119,107 +115,72 @@ RunWriter Run::open_writer() {
     return std::move(resumed.writer);
   }
   begins_ = false;
-  restore(*resumed.checkpoint, grid_, now_, control_, monitors_, counters_);
-  now_.fill_ghosts(boundary_);
+  loop_.restore(*resumed.checkpoint);
   alarms_.restore(std::move(resumed.warnings));
   return std::move(resumed.writer);
-}
-
-bool Run::advance() {
-  before_ = {counters_, monitors_.values(), control_.last()};
-  double dt = control_.next(now_);
-  for (;;) {
-    last_ = step_.advance(now_, dt, next_);
-    if (last_.accepted) {
-      trouble_ = monitors_.not_finite(next_);
-      if (trouble_.empty()) break;
-      last_.refused_because = "the " + trouble_ + " is not finite";
-    }
-    ++counters_.refused_steps;
-    spdlog::debug("t = {:.6g} s: step of {:.3g} s refused: {}", now_.time, dt, last_.refused_because);
-    dt = control_.after_refusal(dt);
-    if (dt < scene_.numerics.dt_min) {
-      trouble_ = fmt::format("step collapse at t = {:.6g} s: {}", now_.time, last_.refused_because);
-      return false;
-    }
-  }
-  std::swap(now_, next_);
-  control_.accepted(dt);
-  monitors_.update(now_, last_.liquid_left, last_.solid_left);
-  counters_.newton += last_.pressure.newton;
-  counters_.linear += last_.pressure.linear;
-  counters_.friction += last_.friction.iterations;
-  counters_.unconverged_friction += last_.friction.converged ? 0 : 1;
-  ++counters_.steps;
-  return true;
-}
-
-void Run::step_back() {
-  std::swap(now_, next_);
-  counters_ = before_.counters;
-  monitors_.restore(before_.monitors);
-  control_.restore(before_.dt);
 }
 
 // The flow knows nothing of its output: no step is cut for it. What falls into a step is interpolated between
 // the two states; monitors are those of that step.
 void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_now) {
+  const StepReport& last = loop_.last_step();
   for (const DueOutput& due : due_now) {
-    const CellFields fields = cell_fields(grid_, earlier, now_, due.time);
+    const CellFields fields = cell_fields(loop_.grid(), earlier, loop_.now(), due.time);
     if (due.row) {
-      std::vector<Value> row{control_.last(),
-                             static_cast<double>(last_.pressure.newton),
-                             static_cast<double>(last_.pressure.linear),
-                             static_cast<double>(last_.friction.iterations),
-                             monitors_.solid_volume_error(),
-                             monitors_.liquid_volume_error()};
-      const EnergyTerms energy = energy_terms_at(earlier, now_, due.time);
+      std::vector<Value> row{loop_.last_dt(),
+                             static_cast<double>(last.pressure.newton),
+                             static_cast<double>(last.pressure.linear),
+                             static_cast<double>(last.friction.iterations),
+                             loop_.monitors().solid_volume_error(),
+                             loop_.monitors().liquid_volume_error()};
+      const EnergyTerms energy = energy_terms_at(earlier, loop_.now(), due.time);
       for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
-      writer_.write_series_row(due.time, row, extract_scalars(fields, scene_));
+      last_row_ = extract_scalars(fields, scene_);
+      writer_.write_series_row(due.time, row, last_row_);
     }
     if (due.fields) writer_.write_fields(fields);
   }
 }
 
 RunProgress Run::progress() const {
+  const RunCounters& counters = loop_.counters();
+  const Monitors& monitors = loop_.monitors();
+  const EnergyTerms& energy = loop_.now().energy;
   RunProgress p;
-  p.steps = counters_.steps;
-  p.refused_steps = counters_.refused_steps;
-  p.cells = static_cast<std::int64_t>(grid_.cells.count());
-  p.simulated_time = std::min(now_.time, scene_.times.end);
-  p.wall_seconds = counters_.wall_seconds +
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  p.core_seconds = counters_.core_seconds + core_seconds() - started_core_;
-  p.cost = step_.cost().seconds();
-  p.solid_volume_error = monitors_.solid_volume_error();
-  p.liquid_volume_error = monitors_.liquid_volume_error();
-  p.solid_fraction_max = monitors_.solid_fraction_max();
-  const double steps = std::max<double>(1.0, static_cast<double>(counters_.steps));
-  p.monitors = {{"newton_per_step", static_cast<double>(counters_.newton) / steps},
-                {"linear_per_step", static_cast<double>(counters_.linear) / steps},
-                {"friction_per_step", static_cast<double>(counters_.friction) / steps},
-                {"unconverged_friction_solves", static_cast<double>(counters_.unconverged_friction)},
-                {"last_dt", control_.last()},
-                {"energy_turnover", energy_turnover(scene_, start_energy_, now_.energy)}};
-  for (const EnergyTerm& term : energy_terms) p.monitors[term.name] = now_.energy.*term.value;
+  p.steps = counters.steps;
+  p.refused_steps = counters.refused_steps;
+  p.cells = static_cast<std::int64_t>(loop_.grid().cells.count());
+  p.simulated_time = std::min(loop_.now().time, scene_.times.end);
+  p.wall_seconds = counters.wall_seconds + seconds_since(started_);
+  p.core_seconds = counters.core_seconds + core_seconds() - started_core_;
+  p.cost = loop_.cost();
+  p.solid_volume_error = monitors.solid_volume_error();
+  p.liquid_volume_error = monitors.liquid_volume_error();
+  p.solid_fraction_max = monitors.solid_fraction_max();
+  const double steps = std::max<double>(1.0, static_cast<double>(counters.steps));
+  p.monitors = {{"newton_per_step", static_cast<double>(counters.newton) / steps},
+                {"linear_per_step", static_cast<double>(counters.linear) / steps},
+                {"friction_per_step", static_cast<double>(counters.friction) / steps},
+                {"unconverged_friction_solves", static_cast<double>(counters.unconverged_friction)},
+                {"last_dt", loop_.last_dt()},
+                {"energy_turnover", energy_turnover(scene_, start_energy_, energy)}};
+  for (const EnergyTerm& term : energy_terms) p.monitors[term.name] = energy.*term.value;
   p.warnings = alarms_.raised();
   return p;
 }
 
-void Run::checkpoint() {
-  const RunProgress p = progress();
-  writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, p), p);
-  last_checkpoint_ = std::chrono::steady_clock::now();
-}
-
-int Run::finish(ExitState state, const std::string& reason, LastStep last_step) {
+int Run::finish(const Ending& ending) {
   progress_line_.clear();
+  const RunExit& exit = ending.exit;
   const RunProgress done = progress();
-  if (last_step == LastStep::undone) step_back();
-  writer_.write_checkpoint(checkpoint_view(grid_, now_, control_, monitors_, counters_, done), done);
-  if (state != ExitState::finished) spdlog::error("{}: {}; {}", scene_.name, reason, what_is_left());
-  writer_.finish(done, {state, reason});
-  return state == ExitState::finished ? 0 : 1;
+  if (ending.undo_last_step) loop_.step_back();
+  writer_.write_checkpoint(loop_.checkpoint(done), done);
+  const bool finished = exit.state == ExitState::finished;
+  if (!finished) spdlog::error("{}: {}; {}", scene_.name, exit.reason, what_is_left());
+  writer_.finish(done, exit);
+  if (finished) spdlog::info(closing_line(scene_, done, last_row_, options_.out));
+  if (exit.kind == ExitKind::wall_clock_limit) return exit_code_at_wall_clock_limit;
+  return finished ? 0 : 1;
 }
 
 std::string Run::what_is_left() const {
@@ -229,43 +190,84 @@ std::string Run::what_is_left() const {
                : "there is no checkpoint to go on from";
 }
 
-int Run::give_up(const std::string& reason) {
+int Run::give_up(ExitKind kind, const std::string& reason) {
   progress_line_.clear();
-  const std::string at = fmt::format("stopped at t = {:.6g} s: {}", now_.time, reason);
+  const std::string at = fmt::format("stopped at t = {:.6g} s: {}", loop_.now().time, reason);
   spdlog::error("{}: {}; {}", scene_.name, at, what_is_left());
-  writer_.give_up(progress(), at);
+  writer_.give_up(progress(), at, kind);
   return 1;
 }
 
 int Run::go() {
   try {
     writer_.write_progress(progress());  // run.json must not show an old end while this goes on
-    if (begins_) write_output(now_, due_output(scene_.times, -1.0, now_.time));
-    return loop();
+    log_.open(options_.out, !begins_);
+    spdlog::info("{}: granvof {}, {} thread{}: {}", scene_.name, build_info().version, options_.threads,
+                 options_.threads == 1 ? "" : "s", options_.command);
+    if (begins_) write_output(loop_.now(), due_output(scene_.times, -1.0, loop_.now().time));
+    return steps();
   } catch (const OutputError& error) {
-    return give_up(fmt::format("its output cannot be written: {}", error.what()));
+    return give_up(ExitKind::output, fmt::format("its output cannot be written: {}", error.what()));
   } catch (const std::exception& error) {
-    return give_up(error.what());
+    return give_up(ExitKind::error, error.what());
   }
 }
 
-int Run::loop() {
-  for (;;) {
-    if (const std::string reason = stop_reason(); !reason.empty()) return finish(ExitState::stopped, reason);
-    if (!advance()) return finish(ExitState::failed, trouble_);
-    write_output(next_, due_output(scene_.times, next_.time, now_.time));
-    trouble_ = alarms_.check(now_, monitors_,
-                             {counters_.steps, counters_.unconverged_friction, counters_.refused_steps});
-    // The state that raised the alarm is no good one.
-    if (!trouble_.empty()) return finish(ExitState::failed, trouble_, LastStep::undone);
-    // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no
-    // end.
-    if (now_.time >= scene_.times.end) return finish(ExitState::finished, {}, LastStep::undone);
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint_;
-    if (scene_.times.checkpoint_interval > 0.0 && since.count() >= scene_.times.checkpoint_interval)
-      checkpoint();
-    progress_line_.show(progress(), control_.last(), last_.pressure.newton, last_.pressure.linear);
+int Run::steps() {
+  // A step at least comes before it is asked to stop: a limit that the start-up alone takes must not hold it
+  // for ever.
+  const std::array<TimeLoop::Observer, 6> observers{
+      [this] { return write_what_is_due(); }, [this] { return raise_alarms(); },
+      [this] { return end_of_scene(); },      [this] { return write_checkpoint_in_time(); },
+      [this] { return show_progress(); },     [this] { return asked_to_stop(); }};
+  return finish(loop_.run(observers));
+}
+
+std::optional<TimeLoop::Ending> Run::write_what_is_due() {
+  write_output(loop_.before(), due_output(scene_.times, loop_.before().time, loop_.now().time));
+  return std::nullopt;
+}
+
+std::optional<TimeLoop::Ending> Run::raise_alarms() {
+  const RunCounters& counters = loop_.counters();
+  const std::string why = alarms_.check(
+      loop_.now(), loop_.monitors(), {counters.steps, counters.unconverged_friction, counters.refused_steps});
+  if (why.empty()) return std::nullopt;
+  // The state that raised the alarm is no good one.
+  return Ending{{ExitState::failed, why, ExitKind::alarm}, true};
+}
+
+std::optional<TimeLoop::Ending> Run::end_of_scene() const {
+  if (loop_.now().time < scene_.times.end) return std::nullopt;
+  // The last step led to or beyond the end. A longer run goes on from before it, as if there had been no end.
+  return Ending{{ExitState::finished, {}}, true};
+}
+
+std::optional<TimeLoop::Ending> Run::write_checkpoint_in_time() {
+  const double interval = scene_.times.checkpoint_interval;
+  if (interval > 0.0 && seconds_since(last_checkpoint_) >= interval) {
+    const RunProgress p = progress();
+    writer_.write_checkpoint(loop_.checkpoint(p), p);
+    last_checkpoint_ = Clock::now();
   }
+  return std::nullopt;
+}
+
+std::optional<TimeLoop::Ending> Run::show_progress() {
+  const PressureReport& pressure = loop_.last_step().pressure;
+  progress_line_.show(progress(), loop_.last_dt(), pressure.newton, pressure.linear);
+  return std::nullopt;
+}
+
+std::optional<TimeLoop::Ending> Run::asked_to_stop() const {
+  if (const std::string reason = stop_reason(); !reason.empty())
+    return Ending{
+        {ExitState::stopped, reason, stopped_at_cpu_limit() ? ExitKind::cpu_limit : ExitKind::signal}};
+  if (options_.stop_after && seconds_since(launched_) >= *options_.stop_after)
+    return Ending{{ExitState::stopped,
+                   fmt::format("stopped after {} (--stop-after)", duration_text(*options_.stop_after)),
+                   ExitKind::wall_clock_limit}};
+  return std::nullopt;
 }
 
 }  // namespace

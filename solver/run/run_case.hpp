@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "solver/scene/scene.hpp"
@@ -9,18 +10,22 @@
 namespace granvof {
 
 struct RunOptions {
-  std::filesystem::path out;  // run directory
-  std::string command;        // the command line, for run.json
-  int threads = 1;            // >= 1
-  bool resume = false;        // go on from the directory's checkpoint
-  bool force = false;         // replace the run of another case in the directory
-  bool progress = true;       // a progress line on stderr (the caller says whether it is a terminal)
+  std::filesystem::path out;         // run directory
+  std::string command;               // the command line, for run.json
+  int threads = 1;                   // >= 1
+  bool resume = false;               // go on from the directory's checkpoint
+  bool force = false;                // replace the run of another case in the directory
+  bool progress = true;              // a progress line on stderr (the caller says whether it is a terminal)
+  std::optional<double> stop_after;  // wall-clock time of this part after which it is stopped [s]; > 0
 };
 
-// Returns the exit code: 0 finished; 1 failed, or stopped by a signal (INT, TERM, HUP, USR1, XCPU, PIPE: the
-// last good state is in the checkpoint); where, why and what can be resumed is on stderr and in run.json.
-// Throws OutputError for a directory that cannot be used or resumed, CaseError for a grid that does not fit
-// into memory.
+// Of a run that was stopped by `stop_after`, after the step in which the time was up.
+inline constexpr int exit_code_at_wall_clock_limit = 3;
+
+// Returns the exit code: 0 finished; 3 stopped at its wall-clock limit; 1 failed, or stopped by a signal
+// (INT, TERM, HUP, USR1, XCPU, PIPE: the last good state is in the checkpoint); where, why and what can be
+// resumed is on stderr and in run.json. Throws OutputError for a directory that cannot be used or resumed,
+// CaseError for a grid that does not fit into memory.
 int run_case(const Scene& scene, const RunOptions& options);
 
 }  // namespace granvof

@@ -21,10 +21,9 @@ constexpr double elastic_courant =
 double longest_elastic_step(const Grid& grid, const Scene& scene, const State& s) {
   const double *f = s.f_s.data(), *theta = s.theta.data(), *packing = s.packing.data();
   const double e = scene.solid.restitution, rho_s = scene.solid.density;
-  const bool dilatancy = scene.model.dilatancy_pressure;
-  const Contact& contact = scene.contact;
-  const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=, &contact](std::ptrdiff_t c) {
-    return closures::solid_pressure(f[c], theta[c], e, rho_s, contact, dilatancy, 0.0, packing[c]).slope;
+  const closures::SolidLaw law(scene);
+  const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=, &law](std::ptrdiff_t c) {
+    return closures::solid_pressure(f[c], {theta[c], e, 0.0, packing[c]}, law).slope;
   });
   if (stiffest <= 0.0) return std::numeric_limits<double>::infinity();
   const double shortest = *std::min_element(grid.h.begin(), grid.h.begin() + grid.dim);

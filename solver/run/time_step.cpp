@@ -62,7 +62,8 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
 
   cost_.time("closures", [&] {
     inertia_.update(grid_, scene_, now.f_s, now.alpha);
-    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing);
+    if (scene_.model.viscous_contact_pressure) strain_.update(grid_, now.u_strain);
+    rheology_.update(grid_, scene_, boundary_, now.f_s, now.theta, now.alpha, now.p_s, now.packing, strain_);
     drag_.update(boundary_, now.u_s, now.u_c, now.f_s, now.alpha, inertia_, rheology_.part_cells);
     stir_grains(now, dt);
   });
@@ -83,8 +84,10 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   }
   cost_.time("pressure", [&] {
     report.pressure = pressure_.solve(
-        dt, now.f_s, {now.theta, rheology_.restitution, rheology_.part_cells.resting, now.packing}, inertia_,
-        drag_.beta(), aperture_, now.u_s, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
+        dt, now.f_s,
+        {now.theta, rheology_.restitution, rheology_.part_cells.resting, now.packing,
+         rheology_.viscous_stress.empty() ? nullptr : &rheology_.viscous_stress},
+        inertia_, drag_.beta(), aperture_, now.u_s, next.u_s, next.u_c, next.p_c, next.p_s, flux_s_, flux_c_);
   });
   report.refused_because = reason_to_refuse(now, dt, report);
   if (!report.refused_because.empty()) return report;
@@ -255,7 +258,7 @@ bool TimeStep::apply_viscosity(const State& now, double dt, State& next) {
 void TimeStep::dilate(double dt, State& next) {
   boundary_.fill_velocity(next.u_strain, Phase::solid);
   strain_.update(grid_, next.u_strain);
-  shear_packing(grid_, scene_.contact, dt, next.f_s, strain_, next.packing);
+  shear_packing(grid_, scene_, dt, next.f_s, rheology_, strain_, next.packing);
 }
 
 void TimeStep::account_energy(const State& now, double dt, const Friction::Power& stress,

@@ -127,7 +127,11 @@ class Merge {
   }
 
   void drop_below(const std::string& path) {
-    std::erase_if(text_.entries, [&](const auto& item) { return item.first.starts_with(path + "."); });
+    const std::string prefix = path + ".";
+    const auto first = text_.entries.lower_bound(prefix);
+    auto last = first;
+    while (last != text_.entries.end() && last->first.starts_with(prefix)) ++last;
+    text_.entries.erase(first, last);
   }
 
   Place where(const toml::node& node) const {
@@ -187,7 +191,8 @@ int merge_layers(CaseText& text, toml::table table, const std::string& label,
     if (depth == deepest_base)
       refuse(fmt::format("a chain of at most {} cases, without a circle", deepest_base));
     const std::filesystem::path file = (directory / *base->value<std::string>()).lexically_normal();
-    if (!std::filesystem::is_regular_file(file)) {
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(file, unknown)) {
       refuse(fmt::format("a case file; there is no {}", printable(file.string(), longest_description)));
     }
     layer = merge_layers(text, parse(read_file(file), file.string()), file.string(), file.parent_path(),

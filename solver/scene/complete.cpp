@@ -104,13 +104,13 @@ void complete_materials(Completion& c) {
     }
   });
   c.rule({"contact.fast_friction", "solid.friction", "model"}, [&] {
-    if ((c.s.model.friction_law == FrictionLaw::inertial || c.s.model.thin_layer_arrest) &&
+    if ((c.s.model.friction_law != FrictionLaw::constant || c.s.model.thin_layer_arrest) &&
         contact.fast_friction < c.s.solid.friction) {
-      c.refuse(
-          "contact.fast_friction",
-          fmt::format("at least solid.friction = {}, with friction_law = \"inertial\" or thin_layer_arrest "
-                      "(model.preset = \"{}\")",
-                      c.s.solid.friction, word_of(c.d.preset)));
+      c.refuse("contact.fast_friction",
+               fmt::format("at least solid.friction = {}, with friction_law = \"inertial\" or "
+                           "\"viscous\", or thin_layer_arrest "
+                           "(model.preset = \"{}\")",
+                           c.s.solid.friction, word_of(c.d.preset)));
     }
   });
   c.rule({"contact.critical_solid_fraction", "contact.solid_fraction_min", "contact.solid_fraction_max",

@@ -53,6 +53,9 @@ void beads(const Completion& c) {
   r.bead_friction = *(input.bead_friction = input.bead_friction.value_or(c.s.solid.friction));
   r.bead_restitution = *(input.bead_restitution = input.bead_restitution.value_or(c.s.solid.restitution));
   r.wall_friction = *(input.wall_friction = input.wall_friction.value_or(r.bead_friction));
+  r.gate_friction = input.gate_friction.value_or(r.wall_friction);
+  // Records know of the key only where the plate is not as the walls are.
+  if (r.gate_friction == r.wall_friction) input.gate_friction.reset();
 }
 
 }  // namespace
@@ -67,6 +70,10 @@ void complete_reference(Completion& c) {
     if (c.d.reference.settings.seeds.empty()) c.refuse("reference.seeds", "at least one seed");
   });
   c.rule({"reference.release", "gate"}, [&] { release(c); });
+  c.rule({"reference.gate_friction", "gate"}, [&] {
+    if (c.given("reference.gate_friction") && !c.has("gate"))
+      c.refuse("reference.gate_friction", "no such key without a [gate]");
+  });
   c.rule({"reference", "bed", "solid"}, [&] { beads(c); });
   c.s.reference = c.d.reference.settings;
 }

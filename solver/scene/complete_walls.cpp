@@ -9,6 +9,10 @@
 namespace granvof::case_file {
 namespace {
 
+// What a wall says of itself beside its word.
+constexpr std::array<const char*, 6> wall_parts{".fluid",    ".solid",     ".solid_friction",
+                                                ".velocity", ".bumpiness", ".bump_restitution"};
+
 std::string side_key(int side) {
   return "walls." + std::string(side_names[side]);
 }
@@ -28,7 +32,7 @@ void check_parts(const Completion& c, int side, const std::string& of, const std
   const std::string allowed =
       fmt::format("nothing beside {} = {}; a wall there needs both {}.fluid and {}.solid", of,
                   word == SideWord::open ? "\"open\"" : "\"periodic\"", side_key(side), side_key(side));
-  for (const char* part : {".fluid", ".solid", ".solid_friction", ".velocity"}) {
+  for (const char* part : wall_parts) {
     if (c.given(side_key(side) + part)) c.refuse(side_key(side) + part, allowed);
   }
 }
@@ -37,9 +41,10 @@ void check_side(const Completion& c, int side) {
   const std::string name = side_key(side);
   const SideInput& input = c.d.sides[side];
   if (side == front || side == back) {
+    c.only_in_3d(name);
+    for (const char* part : wall_parts) c.only_in_3d(name + part);
     for (const char* part :
-         {"", ".fluid", ".solid", ".solid_friction", ".velocity", ".inflow", ".inflow_solid_fraction",
-          ".inflow_liquid_share", ".outflow_pressure", ".outflow_level"})
+         {".inflow", ".inflow_solid_fraction", ".inflow_liquid_share", ".outflow_pressure", ".outflow_level"})
       c.only_in_3d(name + part);
   }
   if (input.word == SideWord::open && side != top) {
@@ -61,6 +66,15 @@ void check_friction(const Completion& c, int side, bool coulomb) {
   if (!coulomb && c.d.sides[side].solid_friction) c.refuse(key, "only with solid = \"coulomb\"");
 }
 
+void check_bumps(const Completion& c, int side, bool bumpy) {
+  const SideInput& input = c.d.sides[side];
+  if (bumpy && !input.bumpiness)
+    c.refuse(side_key(side) + ".bumpiness", "a number in (0, 90], required with solid = \"bumpy\"");
+  if (!bumpy && input.bumpiness) c.refuse(side_key(side) + ".bumpiness", "only with solid = \"bumpy\"");
+  if (!bumpy && input.bump_restitution)
+    c.refuse(side_key(side) + ".bump_restitution", "only with solid = \"bumpy\"");
+}
+
 // What a side does not say itself, by part or by word, walls.all says.
 void inherit(SideInput& own, const SideInput& all) {
   const auto part = [](const std::optional<WallKind>& kind, const std::optional<SideWord>& word) {
@@ -73,6 +87,10 @@ void inherit(SideInput& own, const SideInput& all) {
   own.solid = own.solid ? own.solid : part(all.solid, all.word).value_or(WallKind::no_slip);
   if (!own.solid_friction && (by_all || own.solid == WallKind::coulomb))
     own.solid_friction = all.solid_friction;
+  if (own.solid == WallKind::bumpy) {
+    if (!own.bumpiness) own.bumpiness = all.bumpiness;
+    if (!own.bump_restitution) own.bump_restitution = all.bump_restitution;
+  }
   own.word.reset();
 }
 
@@ -94,10 +112,12 @@ void check_flow(const Completion& c, int side) {
   if (c.given(name + ".outflow_level") && !input.outflow_pressure)
     c.refuse(name + ".outflow_level", "only with " + name + ".outflow_pressure");
   if (!flows(input)) return;
-  for (const char* part : {"", ".fluid", ".solid", ".solid_friction", ".velocity"}) {
-    if (c.given(name + part))
-      c.refuse(name + part, "nothing beside " + name + (input.inflow ? ".inflow" : ".outflow_pressure"));
-  }
+  const auto alone = [&](const std::string& key) {
+    if (c.given(key))
+      c.refuse(key, "nothing beside " + name + (input.inflow ? ".inflow" : ".outflow_pressure"));
+  };
+  alone(name);
+  for (const char* part : wall_parts) alone(name + part);
 }
 
 void fill_inlet(const Completion& c, int side) {
@@ -164,11 +184,15 @@ void fill_side(const Completion& c, int side) {
   }
   inherit(input, all);
   check_friction(c, side, input.solid == WallKind::coulomb);
+  check_bumps(c, side, input.solid == WallKind::bumpy);
+  if (input.solid == WallKind::bumpy)
+    input.bump_restitution = input.bump_restitution.value_or(c.s.solid.restitution);
   if (!input.velocity.empty() && input.fluid == WallKind::slip && input.solid == WallKind::slip) {
     c.refuse(side_key(side) + ".velocity", "only where a phase feels it: fluid or solid not \"slip\"");
   }
   to.fluid.kind = *input.fluid;
-  to.solid = {*input.solid, input.solid_friction.value_or(0.0)};
+  to.solid = {*input.solid, input.solid_friction.value_or(0.0), input.bumpiness.value_or(0.0),
+              input.bump_restitution.value_or(0.0)};
   std::copy(input.velocity.begin(), input.velocity.end(), to.velocity.begin());
 }
 
@@ -193,7 +217,11 @@ void complete_walls(Completion& c) {
       check_flow(c, side);
     });
   }
-  c.rule({"walls.all"}, [&] { check_friction(c, side_all, c.d.sides[side_all].solid == WallKind::coulomb); });
+  c.rule({"walls.all"}, [&] {
+    const SideInput& all = c.d.sides[side_all];
+    check_friction(c, side_all, all.solid == WallKind::coulomb);
+    check_bumps(c, side_all, all.solid == WallKind::bumpy);
+  });
   for (int side = 0; side < side_all; ++side) {
     c.rule({"scene.dimensions", "tank", "contact.solid_fraction_max", "liquid.level", side_key(side),
             "walls.all"},

@@ -19,7 +19,7 @@ enum class SideWord { no_slip, slip, open, periodic };
 struct SideInput {
   std::optional<SideWord> word;
   std::optional<WallKind> fluid, solid;
-  std::optional<double> solid_friction;
+  std::optional<double> solid_friction, bumpiness, bump_restitution;
   std::vector<double> velocity;  // empty: at rest
   std::optional<double> inflow, inflow_solid_fraction, inflow_liquid_share;
   std::optional<double> outflow_pressure, outflow_level;
@@ -47,7 +47,8 @@ struct ObstacleInput {
 struct ReferenceInput {
   ReferenceSettings settings;
   std::optional<ReferenceRelease> release;
-  std::optional<double> slice_depth, hold, packing, bead_friction, bead_restitution, wall_friction;
+  std::optional<double> slice_depth, hold, packing, bead_friction, bead_restitution, wall_friction,
+      gate_friction;  // gate_friction stays empty where it is that of the walls
 };
 
 struct TimesInput {

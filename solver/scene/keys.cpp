@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "solver/scene/key_types.hpp"
+#include "solver/scene/keys_of_model.hpp"
 #include "solver/scene/keys_of_sides.hpp"
 #include "solver/scene/presets.hpp"
 
@@ -58,35 +59,6 @@ std::vector<Key> material_keys() {
       key("solid.restitution", "-", share, MEMBER(scene.solid.restitution), "e0 of eq (18)."),
       required(
           key("solid.friction", "-", not_negative, MEMBER(scene.solid.friction), "eta_s = tan(theta_s).")),
-  };
-}
-
-std::vector<Key> contact_keys() {
-  return {
-      key("contact.stiffness", "Pa", positive, MEMBER(scene.contact.stiffness), "K of (13)."),
-      key("contact.exponent", "-", Range{.lower = 0.0, .upper = 10.0, .lower_open = true},
-          MEMBER(scene.contact.exponent), "chi of (13)."),
-      key("contact.dilatancy_factor", "-", not_negative, MEMBER(scene.contact.dilatancy_factor),
-          "a' of (15)."),
-      key("contact.dilatancy_exponent", "-", positive, MEMBER(scene.contact.dilatancy_exponent),
-          "delta of (15)."),
-      key("contact.dense_solid_fraction", "-", part, MEMBER(scene.contact.dense_solid_fraction),
-          "f_s0 of (15); at most solid_fraction_max."),
-      key("contact.solid_fraction_min", "-", part, MEMBER(scene.contact.solid_fraction_min),
-          "f_s,min, random loose packing; below solid_fraction_max."),
-      key("contact.solid_fraction_max", "-", part, MEMBER(scene.contact.solid_fraction_max), "f_s,max."),
-      key("contact.regularisation", "s", positive, MEMBER(scene.contact.regularisation), "n of (17)."),
-      key("contact.fast_friction", "-", not_negative, MEMBER(scene.contact.fast_friction),
-          "mu_2 of mu(I) and h_stop; at least solid.friction with friction_law = \"inertial\" or "
-          "thin_layer_arrest."),
-      key("contact.inertial_number", "-", positive, MEMBER(scene.contact.inertial_number), "I_0 of mu(I)."),
-      came_later(key("contact.stop_length", "-", positive, MEMBER(scene.contact.stop_length),
-                     "L of h_stop, in grain diameters, with thin_layer_arrest.")),
-      came_later(
-          key("contact.critical_solid_fraction", "-", part, MEMBER(scene.contact.critical_solid_fraction),
-              "f_c, packing under slow shear, with shear_dilatancy; between solid_fraction_min and _max.")),
-      came_later(key("contact.dilatancy_slope", "-", positive, MEMBER(scene.contact.dilatancy_slope),
-                     "K_psi, tangent of the dilatancy angle per solid fraction above f_c.")),
   };
 }
 
@@ -146,65 +118,6 @@ std::vector<Key> time_keys() {
       key("output.field_interval", unit, positive, MEMBER(times.field_interval), "Instead of field_times."),
       key("output.checkpoint_interval", "wall-clock s", not_negative, MEMBER(times.checkpoint_interval),
           "Time between checkpoints; 0: at the end and on failure only."),
-  };
-}
-
-std::vector<Key> model_keys() {
-  const Words<TemperatureModel> temperatures{{"transported", TemperatureModel::transported},
-                                             {"algebraic", TemperatureModel::algebraic},
-                                             {"off", TemperatureModel::off}};
-  Words<Preset> preset_words;
-  for (const PresetEntry& entry : presets()) preset_words.emplace_back(entry.word, entry.preset);
-  return {
-      // Named for the reader: it is in the hashes by what it sets.
-      scoped(choice("model.preset", preset_words, MEMBER(preset),
-                    "What is chosen beside the paper's model, see Presets below; single keys go on top."),
-             Scope::label),
-      key("model.drag", "", any, MEMBER(scene.model.drag), "Drag, (8) and (9)."),
-      // demvof's too: in both hashes
-      scoped(
-          came_later(choice("model.drag_law",
-                            Words<DragLaw>{{"paper", DragLaw::paper},
-                                           {"di-felice", DragLaw::di_felice},
-                                           {"beetstra", DragLaw::beetstra},
-                                           {"tenneti", DragLaw::tenneti}},
-                            MEMBER(scene.model.drag_law),
-                            "Drag coefficient, of both codes: (8), (9) as printed, or Di Felice (1994), "
-                            "Beetstra et al. (2007), Tenneti et al. (2011), without their jump at f_s 0.2.")),
-          Scope::setup),
-      key("model.les", "", any, MEMBER(scene.model.les), "Subgrid viscosity (10)."),
-      choice("model.granular_temperature", temperatures, MEMBER(scene.model.granular_temperature), "Eq (7)."),
-      key("model.pressure_work", "", any, MEMBER(scene.model.pressure_work), "-P_s^K div u_s in (7)."),
-      key("model.dilatancy_pressure", "", any, MEMBER(scene.model.dilatancy_pressure), "P_s^EF, (14)."),
-      key("model.kinetic_viscosity", "", any, MEMBER(scene.model.kinetic_viscosity),
-          "mu_s^K and zeta_s^K, (20), (21)."),
-      key("model.contact_friction", "", any, MEMBER(scene.model.contact_friction), "tau_s^E, (17)."),
-      choice("model.friction_law",
-             Words<FrictionLaw>{{"constant", FrictionLaw::constant}, {"inertial", FrictionLaw::inertial}},
-             MEMBER(scene.model.friction_law),
-             "Friction coefficient: solid.friction (the paper), or mu(I), which it is at rest (Jop et al. "
-             "2006)."),
-      came_later(choice("model.packing",
-                        Words<Packing>{{"uniform", Packing::uniform}, {"carried", Packing::carried}},
-                        MEMBER(scene.model.packing),
-                        "Where grains touch: at contact.solid_fraction_min everywhere (the paper), or where "
-                        "(13) bears the weight of the bed as it is set up, carried with the grains: a bed "
-                        "then starts at rest at any solid fraction.")),
-      came_later(key("model.thin_layer_arrest", "", any, MEMBER(scene.model.thin_layer_arrest),
-                     "Friction of a layer on a no-slip floor at least that at which it stops, h_stop "
-                     "(Pouliquen 1999).")),
-      came_later(key(
-          "model.shear_dilatancy", "", any, MEMBER(scene.model.shear_dilatancy),
-          "The packing at which grains touch follows shear to contact.critical_solid_fraction (Pailha and "
-          "Pouliquen "
-          "2009), from where model.packing = \"carried\" starts.")),
-      came_later(key("model.frictional_restitution", "", any, MEMBER(scene.model.frictional_restitution),
-                     "e0 less what solid.friction takes in collisions (Chialvo and Sundaresan 2013).")),
-      came_later(
-          key("model.agitation_drag", "", any, MEMBER(scene.model.agitation_drag),
-              "Drag on the agitation of grains that shear past each other, as friction (da Cruz et al. "
-              "2005).")),
-      key("model.colour", "", any, MEMBER(scene.model.colour), "Colour of the solid, (25)."),
   };
 }
 
@@ -291,6 +204,9 @@ std::vector<Key> reference_keys() {
       otherwise(
           key("reference.wall_friction", "-", not_negative, MEMBER(reference.wall_friction), "Bead on wall."),
           "reference.bead_friction"),
+      otherwise(key("reference.gate_friction", "-", not_negative, MEMBER(reference.gate_friction),
+                    "Bead on the gate's plate, closed and while it rises; needs [gate]."),
+                "reference.wall_friction"),
       otherwise(key("reference.packing", "-", part, MEMBER(reference.packing), "Solid fraction to prepare."),
                 "bed.solid_fraction"),
       key("reference.preparation_friction", "-", not_negative,

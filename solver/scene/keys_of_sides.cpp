@@ -11,8 +11,10 @@ std::vector<Key> side_keys(int side) {
                                    {"open", SideWord::open},
                                    {"periodic", SideWord::periodic}};
   const Words<WallKind> fluid_words{{"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}};
-  const Words<WallKind> solid_words{
-      {"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}, {"coulomb", WallKind::coulomb}};
+  const Words<WallKind> solid_words{{"no-slip", WallKind::no_slip},
+                                    {"slip", WallKind::slip},
+                                    {"coulomb", WallKind::coulomb},
+                                    {"bumpy", WallKind::bumpy}};
   const std::string name = "walls." + std::string(side_names[side]);
   const auto input = [side](auto member) {
     return [ side, member ](auto& draft) -> auto& {
@@ -31,10 +33,18 @@ std::vector<Key> side_keys(int side) {
           "the side's word, else walls.all"),
       otherwise(
           choice(name + ".solid", solid_words, input(&SideInput::solid),
-                 "Grains at this side; \"coulomb\": tangential stress at most solid_friction times P_s."),
+                 "Grains at this side; \"coulomb\": tangential stress at most solid_friction times P_s; "
+                 "\"bumpy\": grains are glued to it, and those that hit them slip and heat (Richman 1988)."),
           "the side's word, else walls.all"),
       key(name + ".solid_friction", "-", not_negative, input(&SideInput::solid_friction),
           "mu_w; with solid = \"coulomb\" only."),
+      came_later(key(name + ".bumpiness", "degrees", Range{.lower = 0.0, .upper = 90.0, .lower_open = true},
+                     input(&SideInput::bumpiness),
+                     "Largest angle of a contact with a bump from the normal, sin = (d + gap) / 2d; with "
+                     "solid = \"bumpy\" only.")),
+      otherwise(came_later(key(name + ".bump_restitution", "-", share, input(&SideInput::bump_restitution),
+                               "Of grains on those bumps; with solid = \"bumpy\" only.")),
+                "solid.restitution"),
       otherwise(
           key(name + ".velocity", "m/s", any, input(&SideInput::velocity), "Of the wall, in its own plane."),
           "at rest"),

@@ -64,6 +64,29 @@ const std::vector<Choice>& choices() {
        .reason =
            "Friction takes from collisions too (Chialvo and Sundaresan 2013): for grains in air; under water "
            "collisions are damped, and it does nothing."},
+      {.key = "model.radial_distribution",
+       .reason =
+           "Collisions of dense smooth grains as DEM has them: (19) is three times too stiff in a dense "
+           "core (Chialvo and Sundaresan 2013)."},
+      {.key = "model.kinetic_transport",
+       .reason = "Dilute grains carry momentum and heat as they fly, which (20) and (22) leave out (Syamlal "
+                 "et al. 1993)."},
+      {.key = "model.correlated_collisions",
+       .reason =
+           "Dense grains of low restitution dissipate less than chance collisions would (Jenkins 2007)."},
+      {.key = "model.critical_packing",
+       .reason = "For grains in viscous liquids: the faster the shear, the looser the packing it drives to "
+                 "(Boyer et al. 2011)."},
+      {.key = "model.dilatancy_friction",
+       .reason =
+           "Without it dilatancy acts by the pressure of contacts and pores alone, as where its slope is "
+           "large (Montella et al. 2021)."},
+      {.key = "model.viscous_contact_pressure",
+       .reason = "For grains in viscous liquids: a suspension that is sheared presses (Boyer et al. 2011)."},
+      {.key = "model.suspension_viscosity",
+       .reason =
+           "For grains in viscous liquids: the liquid between dense grains is sheared more than they are "
+           "(Boyer et al. 2011)."},
       {.key = "numerics.interface_scheme",
        .reason = "Beside the paper's flux of alpha: planes in the cells (Youngs 1982), or first order."},
       {.key = "numerics.contact_pressure",

@@ -20,12 +20,15 @@ using Vec3 = std::array<double, 3>;
 enum class WallKind {
   no_slip,  // tangential velocity equals the wall's
   slip,     // no tangential stress
-  coulomb   // solid phase only: tangential stress at most friction * P_s
+  coulomb,  // solid phase only: tangential stress at most friction * P_s
+  bumpy     // solid phase only: grains are glued to it; those that hit them slip and heat, bumpy_wall.hpp
 };
 
 struct PhaseWall {
   WallKind kind = WallKind::no_slip;
-  double friction = 0.0;  // mu_w [-], >= 0, read for coulomb only
+  double friction = 0.0;     // mu_w [-], >= 0, read for coulomb only
+  double bumpiness = 0.0;    // how deep grains reach between the bumps [degrees], in (0, 90], bumpy only
+  double restitution = 0.0;  // of grains on the bumps [-], in [0, 1], bumpy only
   bool operator==(const PhaseWall&) const = default;
 };
 
@@ -97,6 +100,8 @@ struct Contact {
   double stop_length = 1.65;           // L of h_stop in grain diameters, likewise [-]
   double critical_solid_fraction = 0.582;  // f_c, packing under slow shear: glass beads, Pailha 2009 [-]
   double dilatancy_slope = 4.09;           // K_psi = d tan(psi) / d f_p, likewise [-]
+  double dilatancy_rate = 1.0;    // a of the critical packing by rate of shear: Boyer et al. 2011 [-]
+  double viscous_number = 0.005;  // I_v at which mu(I_v) is half way to mu_2: Boyer et al. 2011 [-]
   bool operator==(const Contact&) const = default;
 };
 
@@ -130,8 +135,9 @@ struct Gate {
 
 // --- what is modelled --------------------------------------------------------------------------------
 
-// Friction coefficient of (17): eta_s alone (the paper), or mu(I) from eta_s at rest to mu_2 at speed.
-enum class FrictionLaw { constant, inertial };
+// Friction coefficient of (17): eta_s alone (the paper), or from eta_s at rest to mu_2 at speed by the
+// inertial number, or by the viscous one.
+enum class FrictionLaw { constant, inertial, viscous };
 
 // The solid fraction at which grains touch: f_s,min everywhere (the paper), or what their bed was prepared
 // at, carried with them.
@@ -139,6 +145,16 @@ enum class Packing { uniform, carried };
 
 // beta_c: (8), (9) as printed, or a law without a jump, see closures/drag_*.hpp.
 enum class DragLaw { paper, di_felice, beetstra, tenneti };
+
+// The packing that shear drives a bed to: contact.critical_solid_fraction, or less of it the faster it
+// shears.
+enum class CriticalPacking { constant, by_rate };
+
+// g0: (19), or that of spheres up to jamming, see closures/radial_distribution.hpp.
+enum class RadialDistribution { paper, jamming };
+
+// mu_s^K and kappa_s^K: what collisions hand over, (20) and (22), or what flying grains carry too.
+enum class KineticTransport { collisional, with_streaming };
 
 enum class TemperatureModel { transported, algebraic, off };
 
@@ -151,17 +167,29 @@ struct Model {
   bool pressure_work = true;       // -P_s^K div u_s in (7), see correction 2 of the model
   bool dilatancy_pressure = true;  // P_s^EF, eq (14)
   bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
-  bool contact_friction = true;    // tau_s^E, eq (17)
+  RadialDistribution radial_distribution = RadialDistribution::paper;
+  KineticTransport kinetic_transport = KineticTransport::collisional;
+  bool correlated_collisions = false;  // dissipate less in dense flow, collisions.hpp
+  bool contact_friction = true;        // tau_s^E, eq (17)
   FrictionLaw friction_law = FrictionLaw::constant;
   Packing packing = Packing::uniform;
-  bool thin_layer_arrest = false;       // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
-  bool shear_dilatancy = false;         // where grains touch follows shear, shear_dilatancy.hpp
-  bool frictional_restitution = false;  // friction takes from collisions too, restitution.hpp
-  bool agitation_drag = false;          // drag on the agitation of sheared grains, agitation_drag.hpp
-  bool colour = true;                   // eq (25)
+  bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
+  bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
+  CriticalPacking critical_packing = CriticalPacking::constant;
+  bool dilatancy_friction = true;         // tan(psi) of shear_dilatancy adds to friction
+  bool viscous_contact_pressure = false;  // of grains that a liquid shears past each other, suspension.hpp
+  bool suspension_viscosity = false;      // of the liquid between sheared grains, suspension.hpp
+  bool frictional_restitution = false;    // friction takes from collisions too, restitution.hpp
+  bool agitation_drag = false;            // drag on the agitation of sheared grains, agitation_drag.hpp
+  bool colour = true;                     // eq (25)
 
   // Where grains touch is a field of the state, which a bed at rest starts with.
   bool carries_packing() const { return packing == Packing::carried || shear_dilatancy; }
+  // A law asks for the fluid's viscosity between the grains.
+  bool has_viscous_contacts() const {
+    return viscous_contact_pressure || friction_law == FrictionLaw::viscous ||
+           (shear_dilatancy && critical_packing == CriticalPacking::by_rate);
+  }
   bool operator==(const Model&) const = default;
 };
 
@@ -218,6 +246,7 @@ struct ReferenceSettings {
   double bead_rolling_friction = 0.0;  // [-], during the run
   double bead_restitution = 0.0;       // [-]; the case's default: solid.restitution
   double wall_friction = 0.0;          // bead on wall [-]; the case's default: bead_friction
+  double gate_friction = 0.0;          // bead on the gate's plate [-]; the case's default: wall_friction
   double packing = 0.0;               // solid fraction to prepare [-]; the case's default: bed.solid_fraction
   double preparation_friction = 1.0;  // bead on bead while the column settles: sets the packing [-]
   double preparation_rolling_friction = 0.2;  // [-]

@@ -1,9 +1,11 @@
-// A scene run step by step in memory, with its state open to be set and to be measured.
+// A scene run step by step in memory by the program's own time loop, its state open to be set and to be
+// measured.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -11,47 +13,29 @@
 #include <gtest/gtest.h>
 
 #include "solver/run/snapshot.hpp"
-#include "solver/run/step_control.hpp"
-#include "solver/run/time_step.hpp"
+#include "solver/run/time_loop.hpp"
 
 namespace granvof::test {
 
 class Simulation {
  public:
-  explicit Simulation(Scene given)
-      : scene(std::move(given)),
-        grid(scene),
-        boundary(grid, communicator_),
-        now(initial_state(grid, scene, boundary)),
-        next_(grid),
-        step_(grid, scene, boundary, communicator_),
-        control_(grid, scene) {}
+  explicit Simulation(Scene given) : scene(std::move(given)), loop_(scene) {}
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   Simulation(Simulation&&) = delete;
   Simulation& operator=(Simulation&&) = delete;
   ~Simulation() = default;
 
-  // One accepted step of at most `longest` [s], as run_case takes it. Fails the test where the step
-  // collapses.
+  // One accepted step of at most `longest` [s]. Fails the test where the step collapses.
   void advance(double longest = std::numeric_limits<double>::infinity()) {
-    double dt = std::min(control_.next(now), longest);
-    for (;;) {
-      last = step_.advance(now, dt, next_, extra ? &*extra : nullptr);
-      if (last.accepted) break;
-      ++refused;
-      dt = control_.after_refusal(dt);
-      ASSERT_GT(dt, scene.numerics.dt_min) << "t = " << now.time << " s: " << last.refused_because;
-    }
-    std::swap(now, next_);
-    control_.accepted(dt);
-    ++steps;
+    const auto stuck = loop_.advance(longest, extra ? &*extra : nullptr);
+    ASSERT_FALSE(stuck) << stuck->reason;
   }
   // To `time` [s] exactly, observe() after every step.
   template <typename Observe>
   void until(double time, Observe&& observe) {
     while (now.time < time * (1.0 - 1e-12)) {
-      const double left = time - now.time, dt = std::min(control_.next(now), left);
+      const double left = time - now.time, dt = std::min(loop_.next_dt(), left);
       advance(left / std::ceil(left / dt * (1.0 - 1e-9)));
       if (::testing::Test::HasFatalFailure()) return;
       observe();
@@ -61,7 +45,7 @@ class Simulation {
     until(time, [] {});
   }
   // The state before the last step.
-  const State& before() const { return next_; }
+  const State& before() const { return loop_.before(); }
 
   // After the state was set by hand.
   void fill_ghosts() { now.fill_ghosts(boundary); }
@@ -96,20 +80,15 @@ class Simulation {
   Scene scene;
 
  private:
-  SerialCommunicator communicator_;
+  TimeLoop loop_;
 
  public:
-  Grid grid;
-  Boundary boundary;
-  State now;
-  StepReport last;
-  int steps = 0, refused = 0;
+  const Grid& grid = loop_.grid();
+  const Boundary& boundary = loop_.boundary();
+  State& now = loop_.now();
+  const StepReport& last = loop_.last_step();
+  const std::int64_t &steps = loop_.counters().steps, &refused = loop_.counters().refused_steps;
   std::optional<BodyAcceleration> extra;  // sources of a manufactured solution, where set
-
- private:
-  State next_;
-  TimeStep step_;
-  StepControl control_;
 };
 
 }  // namespace granvof::test

@@ -1,18 +1,23 @@
 #include "reference/demvof/beads/bead_engine.hpp"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 #include <unistd.h>
 
 #include "liggghts/library.h"
 #include "liggghts/library_cfd_coupling.h"
+#include "reference/demvof/beads/bead_log.hpp"
 #include "reference/demvof/beads/input_files.hpp"
+#include "reference/demvof/beads/messages_into.hpp"
 
 namespace demvof {
 
@@ -20,8 +25,17 @@ namespace {
 
 constexpr const char* contact = "gran model hertz tangential history";
 
-std::string three(double a, double b, double c) {
-  return fmt::format("{} {} {}", a, b, c);
+// A value a type, see input_files.hpp.
+using ByType = std::array<double, bead_types>;
+
+std::string text(const ByType& values) {
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
+ByType same(double value) {
+  ByType values{};
+  values.fill(value);
+  return values;
 }
 
 }  // namespace
@@ -37,17 +51,21 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
     : settings_(std::move(settings)),
       mobile_(mobile.count()),
       frozen_(frozen_positions.size() / 3),
-      state_(mobile) {
+      state_(mobile),
+      frozen_position_(frozen_positions) {
   std::filesystem::create_directories(settings_.scratch_folder);
   state_.velocity.resize(3 * mobile_, 0.0);
 
-  // A screen of "none" makes LIGGGHTS crash. Where it aborts, the log's last line says why.
-  std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log",
-                                 settings_.scratch_folder + "/liggghts.log"};
+  // A screen of "none" makes LIGGGHTS crash. Where it ends the program, the log says why.
+  const std::string log = bead_log(settings_.scratch_folder, ::getpid());
+  std::vector<std::string> words{"liggghts", "-screen", "/dev/null", "-log", log};
   std::vector<char*> arguments;
   arguments.reserve(words.size());
   for (std::string& word : words) arguments.push_back(word.data());
-  lammps_open(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD, &lammps_);
+  {
+    const MessagesInto hidden(log);  // a second engine finds every style of the first: hundreds of lines
+    lammps_open(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD, &lammps_);
+  }
 
   command("atom_style granular");
   command("atom_modify map array");
@@ -60,7 +78,7 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   const std::string file =
       fmt::format("{}/beads-{}-{}.data", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
   write_beads(file, settings_, mobile, frozen_positions);
-  command("read_data " + file);
+  command(fmt::format("read_data \"{}\"", file));
   std::filesystem::remove(file);
 
   command(fmt::format("neighbor {} bin", 0.3 * settings_.diameter));
@@ -73,15 +91,22 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   rolling_ = settings_.law.rolling_friction > 0.0;
   declare_materials();
   const std::string rolling = rolling_ ? " rolling_friction epsd2" : "";
-  command(fmt::format("pair_style {}{}", contact, rolling));
+  {
+    const MessagesInto hidden(log);
+    command(fmt::format("pair_style {}{}", contact, rolling));
+  }
   command("pair_coeff * *");
+  meter_ = std::make_unique<WorkMeter>(lammps_, settings_, load_);
+  meter_->look(WorkMeter::Place::after_beads);
   declare_walls();
+  meter_->look(WorkMeter::Place::after_walls);
   if (settings_.gate) declare_gate();
 
   command(fmt::format("timestep {}", settings_.dt));
   set_gravity(settings_.gravity, settings_.inclination);
   command("fix coupling all couple/cfd couple_every 1000000 mpi");
   command("fix fluid mobile couple/cfd/force/implicit");
+  meter_->look(WorkMeter::Place::after_all);
   command("fix motion mobile nve/sphere");
   command("thermo_style custom step atoms");
   command("thermo 1000000000");
@@ -95,7 +120,10 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
 }
 
 BeadEngine::~BeadEngine() {
-  if (lammps_ != nullptr) lammps_close(lammps_);
+  if (lammps_ == nullptr) return;
+  lammps_close(lammps_);
+  std::error_code ignored;
+  std::filesystem::remove(bead_log(settings_.scratch_folder, ::getpid()), ignored);
 }
 
 void BeadEngine::command(const std::string& line) {
@@ -105,22 +133,28 @@ void BeadEngine::command(const std::string& line) {
 
 void BeadEngine::declare_materials() {
   const ContactLaw& law = settings_.law;
-  const double bead = law.bead_friction, wall = law.wall_friction, e = law.restitution;
-  command("fix young all property/global youngsModulus peratomtype " +
-          three(law.young, law.young, law.young));
-  command("fix poisson all property/global poissonsRatio peratomtype " +
-          three(law.poisson, law.poisson, law.poisson));
-  const std::string row = three(e, e, e);
-  command(fmt::format("fix restitution all property/global coefficientRestitution peratomtypepair 3 {} {} {}",
-                      row, row, row));
-  command(fmt::format("fix friction all property/global coefficientFriction peratomtypepair 3 {} {} {}",
-                      three(bead, bead, wall), three(bead, bead, wall), three(wall, wall, wall)));
-  if (rolling_) {
-    const std::string rolling = three(law.rolling_friction, law.rolling_friction, law.rolling_friction);
-    command(
-        fmt::format("fix rolling all property/global coefficientRollingFriction peratomtypepair 3 {} {} {}",
-                    rolling, rolling, rolling));
-  }
+  const auto each = [&](const char* name, const char* property, double value) {
+    command(fmt::format("fix {} all property/global {} peratomtype {}", name, property, text(same(value))));
+  };
+  const auto pairs = [&](const char* name, const char* property, const std::array<ByType, bead_types>& rows) {
+    std::vector<std::string> lines;
+    for (const ByType& row : rows) lines.push_back(text(row));
+    command(fmt::format("fix {} all property/global {} peratomtypepair {} {}", name, property, bead_types,
+                        fmt::join(lines, " ")));
+  };
+  const auto uniform = [&](double value) {
+    std::array<ByType, bead_types> rows;
+    rows.fill(same(value));
+    return rows;
+  };
+  each("young", "youngsModulus", law.young);
+  each("poisson", "poissonsRatio", law.poisson);
+  pairs("restitution", "coefficientRestitution", uniform(law.restitution));
+  const double bead = law.bead_friction, wall = law.wall_friction, gate = law.gate_friction;
+  const ByType of_beads{bead, bead, wall, gate};
+  pairs("friction", "coefficientFriction",
+        {of_beads, of_beads, {wall, wall, wall, wall}, {gate, gate, wall, gate}});
+  if (rolling_) pairs("rolling", "coefficientRollingFriction", uniform(law.rolling_friction));
 }
 
 void BeadEngine::declare_walls() {
@@ -143,7 +177,7 @@ void BeadEngine::declare_gate() {
   const std::string file =
       fmt::format("{}/gate-{}-{}.stl", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
   write_gate(file, settings_);
-  command(fmt::format("fix gate all mesh/surface file {} type 3", file));
+  command(fmt::format("fix gate all mesh/surface file \"{}\" type 4", file));
   std::filesystem::remove(file);
   command(fmt::format("fix gatewall mobile wall/{} mesh n_meshes 1 meshes gate", contact));
   gate_present_ = true;
@@ -154,6 +188,8 @@ void BeadEngine::set_gravity(double gravity, double slope) {
   const double sign = gravity < 0.0 ? -1.0 : 1.0, angle = slope * std::numbers::pi / 180.0;
   command(fmt::format("fix gravity mobile gravity {} vector {:.17g} {:.17g} 0", std::abs(gravity),
                       sign * std::sin(angle), -sign * std::cos(angle)));
+  gravity_ = {gravity * std::sin(angle), -gravity * std::cos(angle), 0.0};
+  meter_->set_gravity(gravity_);
   set_up_ = false;
 }
 
@@ -174,6 +210,9 @@ void BeadEngine::raise_gate(double speed) {
   if (!gate_present_) return;
   command(fmt::format("fix gatemotion all move/mesh mesh gate linear 0. {} 0.", speed));
   gate_moving_ = true;
+  gate_speed_ = speed;
+  raised_since_ = time();
+  meter_->set_gate_speed(speed);
   set_up_ = false;
 }
 
@@ -183,10 +222,12 @@ void BeadEngine::remove_gate() {
   if (gate_moving_) command("unfix gatemotion");
   command("unfix gate");
   gate_present_ = false;
+  meter_->set_gate_speed(0.0);
   set_up_ = false;
 }
 
 void BeadEngine::set_load(const FluidLoad& load) {
+  load_ = load;
   const std::size_t n = mobile_;
   const auto send = [&](const char* name, const char* type, double** data) {
     void* address = data;
@@ -219,6 +260,24 @@ void BeadEngine::refresh_state() {
   std::copy(gathered_.begin(), gathered_.begin() + 3 * mobile_, state_.position.begin());
   lammps_gather_atoms(lammps_, v.data(), 1, 3, gathered_.data());
   std::copy(gathered_.begin(), gathered_.begin() + 3 * mobile_, state_.velocity.begin());
+}
+
+double BeadEngine::translation_energy() const {
+  double sum = 0.0;
+  for (const double v : state_.velocity) sum += v * v;
+  return 0.5 * bead_mass() * sum;
+}
+
+double BeadEngine::potential_energy() const {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < state_.position.size(); ++n) sum -= gravity_[n % 3] * state_.position[n];
+  return bead_mass() * sum;
+}
+
+ElasticEnergy BeadEngine::elastic_energy() const {
+  std::optional<double> edge;
+  if (gate_present_) edge = gate_moving_ ? gate_speed_ * (time() - raised_since_) : 0.0;
+  return demvof::elastic_energy(settings_, state_.position, frozen_position_, edge);
 }
 
 double BeadEngine::bead_volume() const {

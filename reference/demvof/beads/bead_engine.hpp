@@ -6,21 +6,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/demvof/beads/bead_settings.hpp"
+#include "reference/demvof/beads/elastic_energy.hpp"
+#include "reference/demvof/beads/fluid_load.hpp"
+#include "reference/demvof/beads/work_meter.hpp"
 
 namespace demvof {
-
-// Force of the fluid on a mobile bead during the next run(): force + coefficient (velocity - u_bead), the
-// drag part evaluated anew every DEM step.
-struct FluidLoad {
-  std::vector<double> coefficient;  // one a bead [kg/s]
-  std::vector<double> velocity;     // three a bead: fluid at the bead [m/s]
-  std::vector<double> force;        // three a bead [N]
-  void resize(std::size_t beads);
-};
 
 class BeadEngine {
  public:
@@ -50,11 +45,24 @@ class BeadEngine {
   double bead_mass() const;
   double bead_volume() const;
 
+  // Of the mobile beads now [J]; the work adds up from the beginning.
+  const BeadWork& work() const { return meter_->work(); }
+  double translation_energy() const;
+  double spin_energy() const { return meter_->spin_energy(); }
+  double potential_energy() const;  // zero at the bottom left corner
+  ElasticEnergy elastic_energy() const;
+
  private:
   BeadSettings settings_;
   void* lammps_ = nullptr;
   std::size_t mobile_ = 0, frozen_ = 0;
   BeadState state_;
+  std::vector<double> frozen_position_;
+  FluidLoad load_;  // as LIGGGHTS has it
+  std::unique_ptr<WorkMeter> meter_;
+  Vector gravity_{};           // [m/s2]
+  double raised_since_ = 0.0;  // time() at which the plate began to move [s]
+  double gate_speed_ = 0.0;    // [m/s]
   long steps_done_ = 0;
   bool rolling_ = false;
   bool gate_present_ = false;

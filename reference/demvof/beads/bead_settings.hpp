@@ -19,7 +19,8 @@ struct ContactLaw {
   double restitution = 0.9;       // [-], in (0, 1]
   double bead_friction = 0.4;     // bead on bead [-]
   double rolling_friction = 0.0;  // bead on bead, epsd2 model [-]; 0 leaves the model out
-  double wall_friction = 0.4;     // bead on wall and gate [-]
+  double wall_friction = 0.4;     // bead on wall [-]
+  double gate_friction = 0.4;     // bead on the gate's plate [-]
 };
 
 struct BeadSettings {

@@ -33,7 +33,7 @@ void write_beads(const std::string& path, const BeadSettings& s, const BeadState
   const WorkBox box = work_box(s);
   const std::size_t frozen = frozen_positions.size() / 3;
   std::ofstream file(path);
-  file << fmt::format("beads\n\n{} atoms\n3 atom types\n\n", mobile.count() + frozen);
+  file << fmt::format("beads\n\n{} atoms\n{} atom types\n\n", mobile.count() + frozen, bead_types);
   file << fmt::format("{} {} xlo xhi\n{} {} ylo yhi\n{} {} zlo zhi\n\nAtoms\n\n", box.lower[0], box.upper[0],
                       box.lower[1], box.upper[1], box.lower[2], box.upper[2]);
   std::size_t id = 0;

@@ -64,19 +64,21 @@ long CoupledRun::bead_steps_allowed() const {
   return std::max(1L, static_cast<long>(std::floor(duration / beads_->settings().dt * (1.0 + 1e-9))));
 }
 
-std::vector<double> CoupledRun::drag_impulse(const std::vector<double>& old_position, double duration) const {
-  const std::vector<double>& position = beads_->state().position;
+std::vector<double> CoupledRun::displacement(const std::vector<double>& old_position) const {
   const bool wrap = beads_->settings().periodic_depth;
   const double depth = beads_->settings().tank[2];
-  std::vector<double> impulse(position.size());
-  for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::size_t n = 3 * bead + d;
-      double moved = position[n] - old_position[n];
-      if (d == 2 && wrap) moved -= depth * std::round(moved / depth);
-      impulse[n] = load_.coefficient[bead] * (load_.velocity[n] * duration - moved);
-    }
+  std::vector<double> moved = beads_->state().position;
+  for (std::size_t n = 0; n < moved.size(); ++n) {
+    moved[n] -= old_position[n];
+    if (n % 3 == 2 && wrap) moved[n] -= depth * std::round(moved[n] / depth);
   }
+  return moved;
+}
+
+std::vector<double> CoupledRun::drag_impulse(const std::vector<double>& moved, double duration) const {
+  std::vector<double> impulse(moved.size());
+  for (std::size_t n = 0; n < moved.size(); ++n)
+    impulse[n] = load_.coefficient[n / 3] * (load_.velocity[n] * duration - moved[n]);
   return impulse;
 }
 
@@ -100,7 +102,10 @@ double CoupledRun::advance(int bead_steps) {
   beads_->set_load(with_carry);
   beads_->run(bead_steps);
 
-  const std::vector<double> impulse = drag_impulse(old_position, duration);
+  mean_slip_work_ += mean_slip_power_ * duration;
+  const std::vector<double> moved = displacement(old_position);
+  for (std::size_t n = 0; n < moved.size(); ++n) pressure_work_ += load_.force[n] * moved[n];
+  const std::vector<double> impulse = drag_impulse(moved, duration);
   mapping_.update(beads_->state().position);
   deposit_solid_fraction();
   reaction_.void_fraction = void_fraction(solid_fraction_);
@@ -141,7 +146,28 @@ void CoupledRun::renew_load() {
   }
   for (double& f : load_.force) f *= -volume;
   if (settings_.drag) renew_drag();
+  mean_slip_power_ = mean_slip_power();
   if (settings_.predict_pressure) predict_pressure_force();
+}
+
+// Of the drag on beads that all move as their surroundings do, cell by cell of the mapping.
+double CoupledRun::mean_slip_power() const {
+  const std::size_t cells = mapping_.cell_count();
+  std::vector<double> number(cells, 0.0), mean(load_.coefficient.size());
+  mapping_.deposit(1.0, number);
+  double power = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    std::vector<double> velocity(cells, 0.0);
+    mapping_.deposit(beads_->state().velocity, 3, d, velocity);
+    for (std::size_t c = 0; c < cells; ++c)
+      if (number[c] > 0.0) velocity[c] /= number[c];
+    mapping_.gather(velocity, 1, 0, mean);
+    for (std::size_t b = 0; b < mean.size(); ++b) {
+      const double slip = load_.velocity[3 * b + static_cast<std::size_t>(d)] - mean[b];
+      power += load_.coefficient[b] * slip * slip;
+    }
+  }
+  return power;
 }
 
 void CoupledRun::renew_drag() {

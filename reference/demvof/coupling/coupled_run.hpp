@@ -63,6 +63,11 @@ class CoupledRun {
   // Momentum of beads and fluid [kg m/s]; what is on its way between them (drag carried over, the pressure of
   // the last fluid step) counts with the beads.
   Vector momentum() const;
+  // Of the pressure on the beads since the start [J]; what else the fluid did to them is drag.
+  double pressure_work() const { return pressure_work_; }
+  // What drag would have dissipated since the start had each bead moved as the mean of the beads about it
+  // [J]; what it took beyond is the drag on their agitation.
+  double mean_slip_work() const { return mean_slip_work_; }
 
  private:
   CouplingSettings settings_;
@@ -77,14 +82,18 @@ class CoupledRun {
   BeadLoad reaction_;
   double time_ = 0.0;
   double last_duration_ = 0.0;
+  double pressure_work_ = 0.0;
+  double mean_slip_power_ = 0.0, mean_slip_work_ = 0.0;  // of the step to come [W]; [J]
 
   void deposit_solid_fraction();
   void predict_pressure_force();
   void renew_load();
   void renew_drag();
+  double mean_slip_power() const;
   long bead_steps_allowed() const;
   double advance(int bead_steps);
-  std::vector<double> drag_impulse(const std::vector<double>& old_position, double duration) const;
+  std::vector<double> displacement(const std::vector<double>& old_position) const;
+  std::vector<double> drag_impulse(const std::vector<double>& moved, double duration) const;
 };
 
 }  // namespace demvof

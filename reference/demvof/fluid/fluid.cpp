@@ -73,6 +73,10 @@ void Fluid::step(double dt, const BeadLoad& load) {
     throw std::runtime_error(message_of(problem));
   }
   boundary_force_ = f.boundary_force;
+  for (double FluidWork::*part :
+       {&FluidWork::drag, &FluidWork::pressure, &FluidWork::gravity, &FluidWork::viscosity,
+        &FluidWork::outflow, &FluidWork::numerical_time, &FluidWork::numerical_momentum})
+    work_.*part += f.work.*part;
   refresh_view();
   if (!std::isfinite(largest_speed()) || !std::isfinite(liquid_volume())) {
     throw std::runtime_error("the fluid blew up (a value is not finite)");
@@ -134,6 +138,17 @@ Vector Fluid::momentum() const {
   const vector total = f.cell_volume() * sum(f.eps.oldTime().primitiveField() *
                                              f.rho.oldTime().primitiveField() * f.U.primitiveField());
   return {{total.x(), total.y(), total.z()}};
+}
+
+double Fluid::kinetic_energy() const {
+  return fields_->kinetic_energy;
+}
+
+double Fluid::potential_energy() const {
+  const Fields& f = *fields_;
+  const vector gravity = f.gravity().value();
+  return -f.cell_volume() *
+         sum(f.eps.primitiveField() * f.rho.primitiveField() * (f.mesh.C().primitiveField() & gravity));
 }
 
 double Fluid::largest_speed() const {

@@ -54,6 +54,20 @@ struct BeadLoad {
   std::array<std::vector<double>, 3> force;  // explicit force density on the fluid [N/m3]
 };
 
+// What forces and scheme did to the kinetic energy of the fluid since the start [J]: gains of the fluid but
+// for the last four, which it lost. In each step they are taken with the velocity that the step ends with,
+// where momentum so discretised gives their sum exactly but for what the splitting of momentum and pressure
+// leaves.
+struct FluidWork {
+  double drag = 0.0;      // by the beads, explicit and implicit part
+  double pressure = 0.0;  // -eps grad p
+  double gravity = 0.0;
+  double viscosity = 0.0;           // dissipated, LES included
+  double outflow = 0.0;             // carried through the top
+  double numerical_time = 0.0;      // 1/2 m |u_new - u_old|^2 of the implicit step
+  double numerical_momentum = 0.0;  // by the convection scheme
+};
+
 // The beads as the pressure prediction sees them, one value a cell.
 struct BeadInertia {
   double density = 0.0;                  // rho_s [kg/m3]
@@ -98,6 +112,9 @@ class Fluid {
   double liquid_volume() const;  // integral of eps alpha [m3]
   Vector momentum() const;       // integral of eps rho u [kg m/s]
   double largest_speed() const;  // [m/s]
+  const FluidWork& work() const { return work_; }
+  double kinetic_energy() const;    // with the mass whose momentum is that of momentum() [J]
+  double potential_energy() const;  // of gas and liquid, zero at the bottom left corner [J]
   // Force of the walls, the gate and the open top on the fluid over the last step [N], pressure and friction.
   Vector boundary_force() const { return boundary_force_; }
 
@@ -106,6 +123,7 @@ class Fluid {
   FluidView view_;
   double courant_liquid_ = 0.0, courant_ = 0.0;
   Vector boundary_force_{};
+  FluidWork work_;
   void refresh_view();
 };
 

@@ -35,6 +35,8 @@ struct Fluid::Fields {
   Foam::surfaceScalarField open;  // share of a face that a gate leaves open [-]
   bool closed = true;             // no open side: the pressure level is free
   Vector boundary_force{};        // of the last step [N]
+  FluidWork work;                 // of the last step [J]
+  double kinetic_energy = 0.0;    // after it, with the mass before the liquid moved [J]
 
   Foam::dimensionedVector gravity() const {
     const double angle = settings.inclination * Foam::constant::mathematical::pi / 180.0;
@@ -47,7 +49,20 @@ struct Fluid::Fields {
 // mu + mu_t [Pa s]: mixture viscosity and, with large_eddy, eq (10).
 Foam::tmp<Foam::volScalarField> effective_viscosity(const Fluid::Fields& fields);
 
-// One step of momentum and pressure: updates U, phi, p_rgh, grad_p, boundary_force. eps holds the new value.
+// What a step of momentum and pressure did, as it was discretised.
+struct MomentumStep {
+  const Foam::volScalarField& inertia;           // mass that the new velocity has, over dt [kg/(m3 s)]
+  const Foam::volScalarField& old_inertia;       // that the old one had
+  const Foam::surfaceScalarField& viscosity;     // on faces [Pa s]
+  const Foam::volVectorField& explicit_viscous;  // the part of the viscous force not in the matrix [N/m3]
+  const Foam::volVectorField& drag;              // force density of the beads, all of it [N/m3]
+};
+// Works of the step that led from U.oldTime() to U, and the kinetic energy after it.
+FluidWork work_of_step(const Fluid::Fields& fields, const MomentumStep& step);
+double kinetic_energy(const Fluid::Fields& fields, const Foam::volScalarField& mass_density);
+
+// One step of momentum and pressure: updates U, phi, p_rgh, grad_p, boundary_force, work,
+// kinetic_energy. eps holds the new value.
 void solve_momentum_and_pressure(Fluid::Fields& fields);
 
 // The prediction of Fluid::predict_pressure_gradient.

@@ -45,10 +45,12 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
   const volScalarField mu(effective_viscosity(f));
   const surfaceScalarField mu_face(fvc::interpolate(f.eps * mu) * f.open);
 
+  const volScalarField old_inertia(inertia + fvc::div(f.rho_phi));
+  const volVectorField transposed(fvc::div(f.eps * mu * dev2(T(fvc::grad(f.U))), "div(viscous)"));
+
   fvVectorMatrix equation(fvm::Sp(inertia, f.U) + fvm::div(f.rho_phi, f.U, "div(rhoPhi,U)") -
                               fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
-                          (inertia + fvc::div(f.rho_phi)) * U_old + f.drag * U_old +
-                              fvc::div(f.eps * mu * dev2(T(fvc::grad(f.U))), "div(viscous)"));
+                          old_inertia * U_old + f.drag * U_old + transposed);
 
   const volScalarField rAU(1.0 / equation.A());
   const surfaceScalarField eps_face(fvc::interpolate(f.eps));
@@ -85,6 +87,9 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
     gate_jump = (pull - through) / mesh.magSf() / mesh.deltaCoeffs();
   }
   f.boundary_force = force_of_boundary(f, mu, gate_jump);
+  const volVectorField drag(f.eps * fvc::reconstruct(bead_pull) - f.drag * (f.U - U_old));
+  f.work = work_of_step(f, {inertia, old_inertia, mu_face, transposed, drag});
+  f.kinetic_energy = kinetic_energy(f, inertia * dt);
 }
 
 }  // namespace demvof

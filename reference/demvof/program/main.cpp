@@ -1,6 +1,5 @@
 // The program demvof: run, chute and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -8,10 +7,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mpi.h>
+#include <unistd.h>
 
+#include "reference/demvof/program/exit_code.hpp"
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
-#include "solver/output/output_error.hpp"
+#include "solver/output/empty_values.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
@@ -19,23 +20,12 @@
 namespace {
 
 constexpr int bad_input = 2;
-constexpr std::size_t longest_message = 1500;  // bytes; it holds the name of a directory
+constexpr std::size_t longest_message = 1500;  // bytes
 
 struct Arguments {
   std::string case_file;
   std::vector<std::string> overrides;
   demvof::RecordOptions record;
-};
-
-// MPI from here to the end of the scope, however it is left.
-class MpiSession {
- public:
-  MpiSession(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
-  ~MpiSession() { MPI_Finalize(); }
-  MpiSession(const MpiSession&) = delete;
-  MpiSession& operator=(const MpiSession&) = delete;
-  MpiSession(MpiSession&&) = delete;
-  MpiSession& operator=(MpiSession&&) = delete;
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -55,6 +45,7 @@ void add_places(CLI::App& command, Arguments& arguments) {
 int run(const Arguments& arguments) {
   const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
   demvof::RecordOptions options = arguments.record;
+  options.progress = options.progress || ::isatty(STDERR_FILENO) != 0;
   if (options.out.empty()) options.out = fmt::format("out/reference/{}/seed{}", scene.name, options.seed);
   if (options.scratch.empty()) options.scratch = "out/reference/scratch";
   return demvof::record_scene(scene, options);
@@ -78,6 +69,10 @@ int hash(const Arguments& arguments) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app("demvof: unresolved DEM-VOF with LIGGGHTS and OpenFOAM, the reference of granvof");
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("demvof: {} (demvof --help says what is allowed)\n",
+                       granvof::case_file::printable(error.what(), longest_message));
+  });
   Arguments arguments;
   arguments.record.command = fmt::format("{}", fmt::join(std::vector<std::string>(argv, argv + argc), " "));
 
@@ -87,7 +82,8 @@ int parse_and_run(int argc, char** argv) {
   run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
   run_command->add_flag("--force", arguments.record.force,
                         "Replace a run of another case in the run directory");
-  run_command->add_flag("--progress", arguments.record.progress, "Say how far the run is");
+  run_command->add_flag("--progress", arguments.record.progress,
+                        "Say how far the run is, where stderr is no terminal too");
 
   CLI::App* chute_command =
       app.add_subcommand("chute", "Measure the bulk friction mu(I) of a case's beads on a dry chute");
@@ -98,12 +94,12 @@ int parse_and_run(int argc, char** argv) {
       app.add_subcommand("hash", "Print two hashes: of what the reference depends on, and of the case");
   add_case(*hash_command, arguments);
 
+  granvof::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
-  const MpiSession session(argc, argv);
   if (*run_command) return run(arguments);
   return *chute_command ? chute(arguments) : hash(arguments);
 }
@@ -112,18 +108,9 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   granvof::keep_standard_streams_taken();
-  try {
+  return demvof::exit_code_of([&] {
     const int code = parse_and_run(argc, argv);
     granvof::require_stdout_written();
     return code;
-  } catch (const granvof::CaseError& error) {
-    fmt::print(stderr, "demvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
-    return bad_input;
-  } catch (const granvof::OutputError& error) {  // a directory that cannot be used
-    fmt::print(stderr, "demvof: {}\n", granvof::case_file::printable(error.what(), longest_message));
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "demvof: {}\n", error.what());
-    return 1;
-  }
+  });
 }

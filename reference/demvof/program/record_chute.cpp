@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "reference/demvof/beads/mpi_session.hpp"
 #include "reference/demvof/bulk_friction/chute.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
+#include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/digest.hpp"
 #include "solver/output/run_record.hpp"
@@ -43,11 +45,8 @@ granvof::FilesWritten files_of(const ChuteResult& result, const std::string& ser
   return files;
 }
 
-}  // namespace
-
-int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
-  check_beads(scene);
-  granvof::listen_to_stop_signals();  // nothing is written before the end, and nothing is then
+int record_in_this_process(const granvof::Scene& scene, const RecordOptions& options) {
+  const MpiSession session;
   const auto clock = std::chrono::steady_clock::now();
   const std::string date = granvof::iso_date_now();
   ChuteSettings chute;
@@ -89,6 +88,17 @@ int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
              fit.law.at_rest, fit.band.at_rest, fit.law.limit, fit.band.limit, fit.law.scale, fit.band.scale,
              points.size(), fit.rms);
   return 0;
+}
+
+}  // namespace
+
+int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
+  check_beads(scene);
+  granvof::listen_to_stop_signals();  // nothing is written before the end, and nothing is then
+  const WorkEnd done = work_in_own_process([&] { return record_in_this_process(scene, options); });
+  if (done.code) return *done.code;
+  fmt::print(stderr, "demvof: {}: {}\n", scene.name, reason_of(done, options.scratch));
+  return 1;
 }
 
 }  // namespace demvof

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -10,11 +11,13 @@
 
 #include <fmt/format.h>
 
+#include "reference/demvof/beads/mpi_session.hpp"
 #include "reference/demvof/preparation/column.hpp"
 #include "reference/demvof/program/progress.hpp"
 #include "reference/demvof/program/recording.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
 #include "reference/demvof/program/snapshot.hpp"
+#include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_writer.hpp"
 #include "solver/output/stop_signals.hpp"
@@ -24,6 +27,9 @@ namespace demvof {
 namespace {
 
 using granvof::Scene;
+
+// Of the packing that was asked for; seeds differ by half of it.
+constexpr double packing_tolerance = 0.01;
 
 constexpr const char* nothing_to_resume = "there is no checkpoint to go on from: demvof writes none";
 
@@ -45,9 +51,11 @@ class Session {
   int go();  // to the end; the exit code
 
  private:
+  int work();  // what LIGGGHTS and OpenFOAM may end, in a process of its own
   Column prepare(const std::vector<double>& floor);
   void record();
   void note_release(const CoupledRun& run);
+  void say_if_missed(double packing);
   void bring_up_to_date();
   int end(granvof::ExitState state, const std::string& reason);
 
@@ -76,6 +84,8 @@ Column Session::prepare(const std::vector<double>& floor) {
   progress_.monitors["prepared_packing"] = column.packing;
   progress_.monitors["prepared_height_m"] = column.height;
   progress_.monitors["slice_depth_m"] = depth_of(scene_);
+  // Of what a bed of exactly the packing asked for would hold.
+  progress_.monitors["prepared_solid_share"] = solid_share(scene_, column.position.size() / 3);
   progress_.monitors["preparation_core_seconds"] = core_seconds();
   return column;
 }
@@ -88,11 +98,28 @@ void Session::note_release(const CoupledRun& run) {
   const Vector inner_lower{bed.lower[0] + 3 * d, bed.lower[1] + 3 * d, 0.0};
   const Vector inner_upper{bed.upper[0] - 3 * d, bed.upper[1] - 6 * d, depth_of(scene_)};
   const bool room = inner_upper[0] > inner_lower[0] + 3 * d && inner_upper[1] > inner_lower[1] + 3 * d;
-  if (room && scene_.dimensions == 2)
+  if (room && scene_.dimensions == 2) {
     progress_.monitors["released_packing"] = packing_inside(rested.position, inner_lower, inner_upper, d);
+    say_if_missed(progress_.monitors["released_packing"]);
+  } else {
+    say_if_missed(progress_.monitors["prepared_packing"]);
+  }
   progress_.monitors["released_height_m"] = bed_top(rested, d);
   progress_.monitors["released_rms_speed_m_s"] = bead_rms_speed(rested);
   progress_.monitors["released_excess_base_pressure_Pa"] = excess_base_pressure(run, gridded_);
+}
+
+// A preparation gets near a packing, not to it: the friction that it is settled with sets it, and that of the
+// run moves it.
+void Session::say_if_missed(double packing) {
+  const double asked = scene_.reference->packing;
+  if (std::abs(packing / asked - 1.0) <= packing_tolerance) return;
+  const std::string meaning = fmt::format(
+      "reference.packing asks for {:.4g}; released at {:.4g}, with {:.4g} of the solid that it would hold",
+      asked, packing, progress_.monitors["prepared_solid_share"]);
+  progress_.warnings.push_back({"released_packing", 0.0, packing, asked, meaning});
+  line_.end();
+  fmt::print(stderr, "demvof: {}: warning: {}\n", scene_.name, meaning);
 }
 
 void Session::record() {
@@ -154,9 +181,9 @@ int Session::end(granvof::ExitState state, const std::string& reason) {
   }
 }
 
-int Session::go() {
+int Session::work() {
   try {
-    writer_.write_progress(progress_);  // run.json must not show an old end while this goes on
+    const MpiSession session;
     record();
     return end(granvof::ExitState::finished, "");
   } catch (const granvof::StopRequested& stop) {
@@ -164,6 +191,20 @@ int Session::go() {
   } catch (const std::exception& problem) {
     return end(granvof::ExitState::failed, problem.what());
   }
+}
+
+int Session::go() {
+  try {
+    writer_.write_progress(progress_);  // run.json must not show an old end while this goes on
+  } catch (const std::exception& problem) {
+    return end(granvof::ExitState::failed, problem.what());
+  }
+  const WorkEnd done = work_in_own_process([this] { return work(); });
+  if (done.code) return *done.code;
+  const std::string reason = reason_of(done, options_.scratch);
+  fmt::print(stderr, "demvof: {}: {}; {}\n", scene_.name, reason, nothing_to_resume);
+  writer_.note_end_of_copy(reason);
+  return 1;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/demvof/program/scene_setup.hpp"
 #include "reference/demvof/program/snapshot.hpp"
@@ -43,7 +44,7 @@ CellFields fields_between(const CellFields& a, const CellFields& b, double share
 }  // namespace
 
 std::vector<granvof::Column> monitor_columns() {
-  return {
+  std::vector<granvof::Column> columns{
       {"fluid_step", "s", "length of the last fluid step"},
       {"bead_front", "m", "x left of which 99.5 % of the beads have their centres"},
       {"bead_speed_rms", "m/s", "rms speed of the beads"},
@@ -52,6 +53,8 @@ std::vector<granvof::Column> monitor_columns() {
       {"excess_base_pressure", "Pa", "floor pressure under the initial bed beyond the liquid's own weight"},
       {"fluid_speed_max", "m/s", "largest speed of the continuous phase"},
       {"liquid_volume_change", "-", "relative change of the liquid volume since the start"}};
+  for (const EnergyTerm& term : energy_terms) columns.push_back({term.name, "J", term.meaning});
+  return columns;
 }
 
 Instant between(const Instant& earlier, const Instant& later, double time) {
@@ -110,6 +113,7 @@ Recording::Recording(CoupledRun& run, const Scene& scene, granvof::RunWriter& wr
       writer_(writer),
       progress_(progress),
       hold_(hold),
+      ledger_(run),
       due_(granvof::due_output(scene.times, -1.0, scene.times.end)),
       liquid_start_(run.fluid().liquid_volume()) {}
 
@@ -128,10 +132,18 @@ Instant Recording::observe() const {
   const BeadState& beads = run_.beads().state();
   // A scene without liquid has none to lose.
   const double change = liquid_start_ > 0.0 ? run_.fluid().liquid_volume() / liquid_start_ - 1.0 : 0.0;
-  return {{last_step_, bead_front(beads), bead_rms_speed(beads),
-           floor_slip(beads, bead_diameter(scene_), scene_.bed->box.upper[0]),
-           excess_base_pressure(run_, scene_), run_.fluid().largest_speed(), change},
-          snapshot(run_, scene_, now())};
+  std::vector<granvof::Value> monitors{last_step_,
+                                       bead_front(beads),
+                                       bead_rms_speed(beads),
+                                       floor_slip(beads, bead_diameter(scene_), scene_.bed->box.upper[0]),
+                                       excess_base_pressure(run_, scene_),
+                                       run_.fluid().largest_speed(),
+                                       change};
+  // A slice stands for the tank's depth, as in every other column.
+  const double slices = scene_.tank[2] / depth_of(scene_);
+  const EnergyTerms energy = ledger_.terms();
+  for (const EnergyTerm& term : energy_terms) monitors.emplace_back(slices * energy.*term.value);
+  return {std::move(monitors), snapshot(run_, scene_, now())};
 }
 
 bool Recording::write(const Instant& instant, const granvof::DueOutput& due) {
@@ -142,6 +154,7 @@ bool Recording::write(const Instant& instant, const granvof::DueOutput& due) {
 }
 
 void Recording::begin() {
+  ledger_.begin();
   Instant instant = observe();
   for (; next_ < due_.size() && due_[next_].time <= 0.0; ++next_) {
     instant.fields.time = due_[next_].time;  // the release, but for rounding

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/demvof/coupling/coupled_run.hpp"
+#include "reference/demvof/coupling/energy_ledger.hpp"
 #include "solver/output/cell_fields.hpp"
 #include "solver/output/output_schedule.hpp"
 #include "solver/output/run_record.hpp"
@@ -62,7 +63,7 @@ class Recording {
       after_step();
     }
   }
-  // What is due at the release.
+  // What is due at the release, from which on energy is counted.
   void begin();
   // One step, as long as the flow allows, and the rows and fields that it passes. True where it wrote a row.
   bool advance();
@@ -78,6 +79,7 @@ class Recording {
   granvof::RunWriter& writer_;
   granvof::RunProgress& progress_;
   double hold_;
+  EnergyLedger ledger_;
   std::vector<granvof::DueOutput> due_;
   std::size_t next_ = 0;  // of due_
   double liquid_start_;   // [m3]

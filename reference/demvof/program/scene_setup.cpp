@@ -8,6 +8,7 @@
 
 #include "reference/demvof/preparation/rough_floor.hpp"
 #include "solver/scene/case_error.hpp"
+#include "solver/scene/printable.hpp"
 
 namespace demvof {
 
@@ -24,9 +25,12 @@ constexpr double thinnest_slice = 2.0;
 constexpr double densest_pile = 0.66;  // spheres at random reach 0.64, a little more between walls [-]
 // Their contacts alone would take more than 10 GB, and their steps years.
 constexpr double most_beads = 1e7;
+constexpr std::size_t longest_name = 1000;  // of a file, in a message [bytes]
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
-  throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}", scene.file.string(), why));
+  throw granvof::CaseError(fmt::format("{}: demvof cannot compute this scene: {}",
+                                       granvof::case_file::printable(scene.file.string(), longest_name),
+                                       why));
 }
 
 bool flat(const Scene& scene) {
@@ -60,6 +64,7 @@ ContactLaw run_law(const Scene& scene) {
   law.bead_friction = r.bead_friction;
   law.rolling_friction = r.bead_rolling_friction;
   law.wall_friction = slippery_for_beads(scene) ? 0.0 : r.wall_friction;
+  law.gate_friction = slippery_for_beads(scene) && r.gate_friction == r.wall_friction ? 0.0 : r.gate_friction;
   return law;
 }
 
@@ -143,6 +148,10 @@ double bead_diameter(const Scene& scene) {
 
 double bead_dt(const Scene& scene) {
   return scene.reference->dt * scene.reference->coarse_graining;
+}
+
+double solid_share(const Scene& scene, std::size_t beads) {
+  return static_cast<double>(beads) / bead_count(scene);
 }
 
 double depth_of(const Scene& scene) {

@@ -1,6 +1,7 @@
 // From a Scene to what the two sides of demvof need.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ void check_scene(const granvof::Scene& scene);
 double bead_diameter(const granvof::Scene& scene);
 // Step of the beads, the same share of their Rayleigh time (proportional to the diameter) at any size [s].
 double bead_dt(const granvof::Scene& scene);
+// Solid of so many beads over that of the bed at exactly reference.packing [-].
+double solid_share(const granvof::Scene& scene, std::size_t beads);
 double depth_of(const granvof::Scene& scene);  // of the slice, or of the tank in 3D [m]
 FluidSettings fluid_settings(const granvof::Scene& scene, const std::string& scratch);
 BeadSettings bead_settings(const granvof::Scene& scene, const std::string& scratch);

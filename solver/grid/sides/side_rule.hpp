@@ -35,10 +35,19 @@ struct SideRule {
 
   // What is beyond; none: as inside.
   std::optional<double> solid_fraction, liquid_share;
+  // alpha of what flows back where two fluids lie beyond, by the place on the side [m] and the height of a
+  // cell [m]; none: as inside. What leaves keeps the surface it has inside.
+  std::function<double(const Vec3& place, double cell)> liquid_that_flows_back;
 
   Tangent fluid, grains;
   // Tangential stress of the contacts over P_s^E, at most: infinite where grains stick, 0 where they slip.
   double friction = std::numeric_limits<double>::infinity();
+  // Bumps that grains collide with: largest angle of a contact from the normal [rad], and their restitution
+  // [-]; none: grains that collide stick, and the side takes no fluctuation energy.
+  struct Bumps {
+    double angle = 0.0, restitution = 0.0;
+  };
+  std::optional<Bumps> bumps;
   Vec3 velocity{};           // of a wall, in its own plane [m/s]
   bool bears_grains = true;  // a bed may rest on it
 

@@ -1,4 +1,7 @@
-// A wall: closed to both phases; each sticks to it or slips along it, grains with friction too.
+// A wall: closed to both phases; each sticks to it or slips along it, grains with friction too, or by
+// collisions with bumps.
+#include <numbers>
+
 #include "solver/grid/sides/side_rule.hpp"
 
 namespace granvof {
@@ -6,7 +9,8 @@ namespace {
 
 Tangent tangent_of(WallKind kind, const Vec3& velocity) {
   Tangent tangent;
-  if (kind != WallKind::no_slip) return tangent;  // the stress of a Coulomb wall is the friction operator's
+  if (kind != WallKind::no_slip && kind != WallKind::bumpy)
+    return tangent;  // the stress of a Coulomb wall is the friction operator's
   tangent.share = -1.0;
   for (int c = 0; c < 3; ++c) tangent.shift[c] = 2.0 * velocity[c];
   return tangent;
@@ -19,7 +23,9 @@ SideRule wall_rule(const Side& side) {
   rule.fluid = tangent_of(side.fluid.kind, side.velocity);
   rule.grains = tangent_of(side.solid.kind, side.velocity);
   rule.velocity = side.velocity;
-  if (side.solid.kind != WallKind::no_slip)
+  if (side.solid.kind == WallKind::bumpy)
+    rule.bumps = {side.solid.bumpiness * std::numbers::pi / 180.0, side.solid.restitution};
+  else if (side.solid.kind != WallKind::no_slip)
     rule.friction = side.solid.kind == WallKind::coulomb ? side.solid.friction : 0.0;
   return rule;
 }

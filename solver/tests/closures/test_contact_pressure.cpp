@@ -66,6 +66,11 @@ TEST(DensePressure, Value) {
   EXPECT_NEAR(dense_pressure(0.5, 1e-4, 0.8, 2500.0, paper).value, 0.4111074558862429, 1e-12);
 }
 
+// Closer than 0.005 to f_s0 that is taken: 15 * 2500 * 1e-4 * 0.2 * (0.28 * 0.6 * 0.6 / 0.005)^(2 / 0.58).
+TEST(DensePressure, ValueAtItsSingularity) {
+  EXPECT_NEAR(dense_pressure(0.6, 1e-4, 0.8, 2500.0, paper).value, 0.75 * std::pow(20.16, 2.0 / 0.58), 1e-6);
+}
+
 TEST(DensePressure, VanishesWithGrainsWithThetaAndForElasticGrains) {
   EXPECT_EQ(dense_pressure(0.0, 1.0, 0.5, 2500.0, paper).value, 0.0);
   EXPECT_EQ(dense_pressure(0.5, 0.0, 0.5, 2500.0, paper).value, 0.0);

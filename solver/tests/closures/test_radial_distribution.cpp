@@ -17,6 +17,11 @@ TEST(RadialDistribution, Values) {
   EXPECT_NEAR(radial_distribution(0.57, f_max), 0.750625 * 441.0 / 4.0, 1e-10);  // 1 - 0.57/0.63 = 2/21
 }
 
+// Denser than 0.98 f_s,max the gap is taken as 0.02.
+TEST(RadialDistribution, ValueAtTheCap) {
+  EXPECT_NEAR(radial_distribution(f_max, f_max), (1.0 - 0.4375 * f_max) / 4e-4, 1e-9);
+}
+
 TEST(RadialDistribution, DiluteSlopeIsNearTheSecondVirialCoefficientOfHardSpheres) {
   EXPECT_NEAR(radial_distribution_slope(0.0, f_max), 2.5, 0.25);  // exact: 5/2; (19) gives 2.74
 }
@@ -46,6 +51,50 @@ TEST(RadialDistribution, SlopeIsTheDerivative) {
     const double expected = test::derivative(g0, f, 1e-5);
     EXPECT_NEAR(radial_distribution_slope(f, f_max), expected, 1e-6 * std::abs(expected)) << f;
   }
+}
+
+// Smooth spheres: worked out by hand at 0.536, where the gap to 0.636 is 0.1.
+TEST(JammingRadialDistribution, Values) {
+  const double smooth = jamming_amplitude(0.0);
+  EXPECT_DOUBLE_EQ(smooth, 0.58);
+  EXPECT_EQ(radial_distribution_jamming(0.0, 0.636, smooth), 1.0);
+  const double dilute = 1.464 / (2.0 * 0.464 * 0.464 * 0.464),
+               dense = 0.58 * 0.536 * 0.536 / std::pow(0.1, 1.5);
+  EXPECT_NEAR(radial_distribution_jamming(0.536, 0.636, smooth), dilute + dense, 1e-12);
+}
+
+TEST(JammingRadialDistribution, DiluteSlopeIsTheSecondVirialCoefficientOfHardSpheres) {
+  EXPECT_NEAR(radial_distribution_jamming_slope(0.0, 0.636, 0.58), 2.5, 1e-14);
+}
+
+// Rubbing grains diverge faster, up to a limit: 3.7.
+TEST(JammingRadialDistribution, AmplitudeGrowsWithFriction) {
+  EXPECT_GT(jamming_amplitude(0.5), 3.0 * jamming_amplitude(0.0));
+  EXPECT_NEAR(jamming_amplitude(100.0), 3.70, 1e-12);
+}
+
+TEST(JammingRadialDistribution, SlopeIsTheDerivativeAndItIsFiniteAndGrowsToTheCap) {
+  const auto g0 = [](double f) { return radial_distribution_jamming(f, 0.636, 0.58); };
+  double previous = 0.0;
+  for (const double f : {0.1, 0.3, 0.5, 0.57, 0.6, 0.615, 0.63, 0.65, 0.7}) {
+    const double expected = test::derivative(g0, f, 1e-5);
+    EXPECT_NEAR(radial_distribution_jamming_slope(f, 0.636, 0.58), expected, 1e-6 * std::abs(expected)) << f;
+    EXPECT_GT(g0(f), previous) << f;
+    previous = g0(f);
+  }
+  EXPECT_TRUE(std::isfinite(g0(0.636)));
+}
+
+// What (19) fails: the published profile of sheared smooth spheres (Vescovi et al. 2014) is steady only if f
+// Theta (1 + 2 (1 + e) f g0) is the same all over. f_s and Theta / U^2 of cases/published/vescovi2014 at y/H
+// = 0.5 and 0.08, e = 0.7: 1.11, and 2.9 by (19).
+TEST(JammingRadialDistribution, PublishedShearIsInBalance) {
+  const auto ratio = [](auto g0) {
+    const auto p = [&](double f, double theta) { return f * theta * (1.0 + 3.4 * f * g0(f)); };
+    return p(0.5566, 2.34e-4) / p(0.3193, 2.76e-3);
+  };
+  EXPECT_NEAR(ratio([](double f) { return radial_distribution_jamming(f, 0.636, 0.58); }), 1.0, 0.12);
+  EXPECT_GT(ratio([](double f) { return radial_distribution(f, 0.636); }), 2.5);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "solver/closures/contact_friction.hpp"
 #include "solver/tests/operators/friction_bed.hpp"
 
 namespace granvof {
@@ -233,10 +234,14 @@ double wall_stress(const Layer& layer, double mass, double driven) {
   return lost * layer.s.grid.h[1] / layer.s.grid.cells.n[0];
 }
 
-TEST(Friction, CoulombWallTakesItsShareOfThePressureAtMost) {
-  Scene scene = Layer::between(WallKind::coulomb, WallKind::slip);
-  scene.sides[bottom].solid.friction = 0.3;
-  scene.sides[bottom].velocity[0] = 0.1;
+class CoulombWall : public ::testing::TestWithParam<int> {};
+
+TEST_P(CoulombWall, TakesItsShareOfThePressureAtMost) {
+  const bool lower = GetParam() == bottom;
+  Scene scene = lower ? Layer::between(WallKind::coulomb, WallKind::slip)
+                      : Layer::between(WallKind::slip, WallKind::coulomb);
+  scene.sides[GetParam()].solid.friction = 0.3;
+  scene.sides[GetParam()].velocity[0] = 0.1;
   const double pressure = 500.0, mass = 1250.0 / step;
   for (double speed : {0.6, -0.4}) {  // sliding either way, relative to a wall that moves at 0.1
     Layer layer(scene);
@@ -261,6 +266,31 @@ TEST(Friction, CoulombWallTakesItsShareOfThePressureAtMost) {
     layer.solve();
   }
   layer.s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(layer.u[0][c], 0.1, 1e-6); });
+}
+
+INSTANTIATE_TEST_SUITE_P(BelowAndAbove, CoulombWall, ::testing::Values(bottom, top),
+                         [](const auto& instance) { return instance.param == bottom ? "bottom" : "top"; });
+
+// Uniform shear of rate G: each volume loses tau G, tau of the law at |S| = G / 2 (deviator's norm),
+// dilatancy on top of the coefficient of friction.
+TEST(Friction, UniformShearTakesTheLawsPower) {
+  Scene scene = Layer::between(WallKind::no_slip, WallKind::no_slip);
+  scene.sides[top].velocity[0] = 2.0;
+  scene.contact.regularisation = 0.05;  // far from both ends of the law
+  const double rate = 2.0 / 0.16, pressure = 300.0, dilatancy = 0.15;
+  Layer layer(scene);
+  layer.rheology.enduring_pressure.fill(pressure);
+  layer.rheology.dilatancy_tangent.fill(dilatancy);
+  layer.s.each_cell(
+      [&](int i, int j, int k, std::ptrdiff_t c) { layer.u[0][c] = rate * layer.s.face(0, i, j, k)[1]; });
+  layer.u_strain = layer.u;
+  layer.set(1e-9, 0.0);
+  layer.solve();
+  Field kinetic(layer.s.grid);
+  const double stress =
+      closures::friction_viscosity(pressure, scene.solid.friction + dilatancy, 0.05, 0.5 * rate) * rate;
+  EXPECT_NEAR(layer.friction.power(layer.mass, layer.u, layer.u, kinetic).friction,
+              stress * rate * 0.04 * 0.16, 1e-4 * stress * rate * 0.04 * 0.16);
 }
 
 // In 3D the wall's stress opposes the sliding, at mu_w P_s in all and not in each direction.

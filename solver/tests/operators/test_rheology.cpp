@@ -1,6 +1,7 @@
 // Which cells at the surface of a bed have a free face.
 #include <gtest/gtest.h>
 
+#include "solver/closures/restitution.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/tests/operators/tank.hpp"
 
@@ -30,7 +31,7 @@ std::array<double, rows> free_sides(const Scene& scene, const std::array<double,
   s.boundary.fill_scalar(f_s);
   Rheology rheology(s.grid);
   rheology.update(s.grid, s.scene, s.boundary, f_s, Field(s.grid, theta), Field(s.grid, 1.0),
-                  Field(s.grid, p_s), Field(s.grid, packed));
+                  Field(s.grid, p_s), Field(s.grid, packed), StrainRate(s.grid));
   std::array<double, rows> side{};
   for (int j = 0; j < rows; ++j)
     side[static_cast<std::size_t>(j)] = rheology.free_side[s.grid.cells.index(2, j, 0)];
@@ -62,6 +63,36 @@ TEST(FreeSide, NoneOfAgitatedGrains) {
   const Sides bed{packed, 0.574, 0.569, 0, 0, 0, 0, 0};
   EXPECT_EQ(free_sides(submerged(2500.0), bed, 0.0, 100.0)[2], 1.0);
   EXPECT_EQ(free_sides(submerged(2500.0), bed, 1.0, 100.0)[2], 0.0);
+}
+
+// Half of the tank liquid, half gas: the fluid that damps a collision is the cell's own.
+TEST(Rheology, RestitutionIsThatOfTheCellsFluid) {
+  const Tank s(submerged(2500.0));
+  const double theta = 1e-4;
+  Field alpha(s.grid, 0.0);
+  s.each_cell([&](int, int j, int, std::ptrdiff_t c) { alpha[c] = j < rows / 2 ? 1.0 : 0.0; });
+  Rheology rheology(s.grid);
+  rheology.update(s.grid, s.scene, s.boundary, Field(s.grid, 0.3), Field(s.grid, theta), alpha, Field(s.grid),
+                  Field(s.grid, packed));
+  const auto expected = [&](const Fluid& fluid) {
+    return closures::effective_restitution(s.scene.solid.restitution, theta, 2500.0, s.scene.solid.diameter,
+                                           fluid.viscosity);
+  };
+  EXPECT_DOUBLE_EQ(rheology.restitution[s.grid.cells.index(1, 1, 0)], expected(s.scene.liquid));
+  EXPECT_DOUBLE_EQ(rheology.restitution[s.grid.cells.index(1, rows - 1, 0)], expected(s.scene.gas));
+  EXPECT_LT(expected(s.scene.liquid), expected(s.scene.gas));
+}
+
+// What friction reads beyond a wall is what is inside.
+TEST(Rheology, PressureBeyondAWallIsThatInside) {
+  const Tank s(box_scene(2, {4, rows, 1}, {0.04, 0.08, 1.0}));
+  Rheology rheology(s.grid);
+  rheology.update(s.grid, s.scene, s.boundary, Field(s.grid, 0.6), Field(s.grid), Field(s.grid, 1.0),
+                  Field(s.grid), Field(s.grid, packed));
+  const double inside = rheology.enduring_pressure[s.grid.cells.index(0, 0, 0)];
+  EXPECT_GT(inside, 0.0);
+  EXPECT_EQ(rheology.enduring_pressure[s.grid.cells.index(-1, 0, 0)], inside);
+  EXPECT_EQ(rheology.enduring_pressure[s.grid.cells.index(0, -1, 0)], inside);
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ def runs(tmp_path_factory):
     return directory
 
 
-# name, cells (x, y, z), tank, datasets beyond the contract's
-RUNS = [("2d", (8, 5, 1), (0.4, 0.1, 0.1), []), ("3d", (4, 3, 2), (0.4, 0.3, 0.2), ["p_s"])]
+# name, cells (x, y, z), tank as shown (a slab of one cell is as thick as a cell is long), datasets beyond the contract's
+RUNS = [("2d", (8, 5, 1), (0.4, 0.1, 0.05), []), ("3d", (4, 3, 2), (0.4, 0.3, 0.2), ["p_s"])]
+AXES = ["z", "y", "x", "component"]
 
 
 @pytest.mark.parametrize("name, cells, tank, more", RUNS)
@@ -36,7 +37,7 @@ def test_fields(runs, name, cells, tank, more):
         assert list(file) == ["t0000", "t0001"]
         assert [file[t].attrs["time"] for t in file] == [0.0, 0.5]
         group = file["t0001"]
-        assert sorted(group) == sorted(["f_s", "alpha", "p_c", "theta", "phi", "u_s", "u_c", *more])
+        assert sorted(group) == sorted(["f_s", "alpha", "p_c", "theta", "phi", "u_s", "u_c", *AXES, *more])
         first = 2.0
         for scalar in ["f_s", "alpha", "p_c", "theta", "phi"]:
             data = group[scalar]
@@ -53,6 +54,34 @@ def test_fields(runs, name, cells, tank, more):
                 else:
                     assert np.array_equal(component, first + np.arange(n))
                     first += n
+
+
+@pytest.mark.parametrize("name, cells, tank, more", RUNS)
+def test_each_dimension_has_its_axis(runs, name, cells, tank, more):
+    with h5py.File(runs / name / "fields.h5", "r") as file:
+        for group in file.values():
+            for d, axis in enumerate("xyz"):
+                assert h5py.h5ds.is_scale(group[axis].id) and group[axis].attrs["units"] == b"m"
+                assert np.allclose(group[axis][...], (np.arange(cells[d]) + 0.5) * tank[d] / cells[d])
+            for field in ["f_s", "alpha", "p_c", "theta", "phi", "u_s", "u_c", *more]:
+                data = group[field]
+                assert [data.dims[i].keys()[0] for i in range(data.ndim)] == AXES[:data.ndim]
+                assert [data.dims[i][0] for i in range(data.ndim)] == [group[axis] for axis in AXES[:data.ndim]]
+                assert data.attrs["long_name"]
+            assert group["p_c"].attrs["units"] == b"Pa" and group["u_s"].attrs["units"] == b"m/s"
+
+
+# Of a run that has finished, whose fields.h5 holds its instants itself.
+@pytest.mark.parametrize("name, cells, tank, more", RUNS[:1])
+def test_xarray_reads_an_instant_as_it_is(runs, name, cells, tank, more):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    with xarray.open_dataset(runs / name / "fields.h5", group="t0001", engine="h5netcdf") as data:
+        assert data["f_s"].dims == ("z", "y", "x") and data["u_s"].dims == ("z", "y", "x", "component")
+        assert data["p_c"].attrs["units"] == "Pa" and data["p_c"].attrs["long_name"] == "fluid pressure"
+        assert np.isclose(float(data["x"][-1]), tank[0] * (1 - 0.5 / cells[0]))
+        assert float(data["f_s"].sel(x=0, y=0, z=0, method="nearest")) * 1024 == 2.0
+        assert data.attrs["time"] == 0.5
 
 
 @pytest.mark.parametrize("name, cells, tank, more", RUNS)

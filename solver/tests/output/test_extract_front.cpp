@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -91,6 +93,18 @@ TEST(Slope, OfAStraightFaceIsItsAngle) {
   }
   EXPECT_NEAR(*deposit_height(fields, scene), 0.08, 1e-14);
   EXPECT_NEAR(*slope(fields, scene), std::atan(gradient) * 180.0 / std::numbers::pi, 1e-10);
+}
+
+// Columns of 1, 0.78, 0.76, 0.5, 0.3 and 0.1 of the largest: the line goes through the four from 0.8 to 0.2.
+TEST(Slope, IsOfTheFaceFrom80To20PerCent) {
+  const auto scene = make_scene(2, {6, 50, 1}, {0.06, 0.1, 0.05});
+  auto fields = empty_fields(scene);
+  const std::array heights{1.0, 0.78, 0.76, 0.5, 0.3, 0.1};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 50; ++j)
+      fields.f_s[cell_index(fields, i, j, 0)] =
+          0.57 * std::clamp(0.05 * heights[static_cast<std::size_t>(i)] / 0.002 - j, 0.0, 1.0);
+  EXPECT_NEAR(*slope(fields, scene), std::atan(0.17 * 0.05 / 0.01) * 180.0 / std::numbers::pi, 1e-10);
 }
 
 TEST(Slope, IsUndefinedForAVerticalFaceAndWithoutABed) {

@@ -1,4 +1,6 @@
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -36,6 +38,20 @@ TEST(Speeds, ArePickedByThePhasePresent) {
   EXPECT_DOUBLE_EQ(*u_liquid_max(fields, scene), 2.0);
 }
 
+// Grains are there from a tenth of 0.57 on, liquid where it has more than half of the cell.
+TEST(Speeds, CountFromTheirThresholdsOn) {
+  const auto scene = small_scene();
+  auto fields = empty_fields(scene);
+  fields.f_s[1] = 0.1 * 0.57;
+  fields.u_s[0][1] = 3.0;
+  EXPECT_DOUBLE_EQ(*u_s_max(fields, scene), 3.0);
+  fields.alpha[6] = 0.5;
+  fields.u_c[0][6] = 2.0;
+  EXPECT_FALSE(u_liquid_max(fields, scene));
+  fields.alpha[6] = 0.51;
+  EXPECT_DOUBLE_EQ(*u_liquid_max(fields, scene), 2.0);
+}
+
 TEST(Speeds, In3DHaveThreeComponents) {
   const auto scene = small_scene_3d();
   auto fields = empty_fields(scene);
@@ -61,6 +77,17 @@ TEST(Energies, OfEachPhase) {
   EXPECT_NEAR(*potential_energy_liquid(fields, scene), 1000.0 * 0.3 * 10.0 * 0.07 * 1e-4, 1e-14);
   // Gas: all the tank (centre at 0.05 m) but 0.8 of that cell.
   EXPECT_NEAR(*potential_energy_gas(fields, scene), 10.0 * (0.05 * 40 - 0.07 * 0.8) * 1e-4, 1e-14);
+}
+
+// Gravity of an inclined tank acts along the floor too: g (sin, -cos) of 30 degrees.
+TEST(Energies, OfATiltedTankFallAlongItsFloor) {
+  auto scene = small_scene();
+  scene.inclination = 30.0;
+  auto fields = empty_fields(scene);
+  fields.f_s[cell_index(fields, 2, 3, 0)] = 0.5;  // x = 0.125, y = 0.07
+  const double weight = 2500.0 * 0.5 * 10.0 * 1e-4;
+  EXPECT_NEAR(*potential_energy_solid(fields, scene),
+              weight * (0.07 * std::cos(std::numbers::pi / 6.0) - 0.125 * 0.5), 1e-13);
 }
 
 TEST(ExtractScalars, GivesAValuePerEntryInTheOrderOfTheTable) {

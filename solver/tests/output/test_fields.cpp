@@ -17,7 +17,9 @@ namespace {
 void expect_same(const CellFields& read, const CellFields& written) {
   EXPECT_EQ(read.time, written.time);
   EXPECT_EQ(read.cells, written.cells);
-  EXPECT_EQ(read.spacing, written.spacing);
+  Vec3 shown = written.spacing;
+  if (written.cells[2] == 1) shown[2] = shown[0];  // a slab is shown as thick as a cell is long
+  EXPECT_EQ(read.spacing, shown);
   EXPECT_EQ(read.f_s, written.f_s);
   EXPECT_EQ(read.alpha, written.alpha);
   EXPECT_EQ(read.p_c, written.p_c);
@@ -125,7 +127,7 @@ TEST(FieldsFile, ADamagedInstantIsRefusedOnResumeLinkedOrJoined) {
     const auto damaged = directory.path() / (joined ? "fields.h5" : "fields/t0001.h5");
     std::string bytes = read_file(damaged);
     // Within the numbers of the first fields, wherever HDF5 puts its own between them.
-    for (std::size_t byte = bytes.size() / 3; byte < bytes.size() / 3 + 256; ++byte)
+    for (std::size_t byte = bytes.size() / 3; byte < 2 * bytes.size() / 3; ++byte)
       bytes[byte] = static_cast<char>(bytes[byte] ^ 1);
     write_file_atomically(damaged, bytes);
     const auto text = message_of<OutputError>([&] { FieldsFile::check_instants(directory.path(), times); });

@@ -194,4 +194,18 @@ TEST_F(RunDirectory, ARecordInWhichADigitWasChangedIsRefused) {
   EXPECT_THROW(fresh(), OutputError);
 }
 
+// A copy of the process that wrote on, and crashed.
+TEST_F(RunDirectory, TheEndOfACopyIsNotedUnlessItHasSaidItsOwn) {
+  auto writer = fresh();
+  writer.write_progress(progress(0.0));
+  writer.note_end_of_copy("it crashed");
+  EXPECT_EQ(record()["exit"]["state"], "failed");
+  EXPECT_EQ(record()["exit"]["reason"], "it crashed");
+  EXPECT_EQ(record()["steps"], 50);
+  EXPECT_TRUE(read_existing_run(run / "run.json"));  // the seal is whole
+  writer.finish(progress(1.0), {ExitState::finished, ""});
+  writer.note_end_of_copy("too late");
+  EXPECT_EQ(record()["exit"]["state"], "finished");
+}
+
 }  // namespace

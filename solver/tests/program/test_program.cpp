@@ -43,6 +43,7 @@ class Program : public ::testing::Test {
   }
 
   std::string record() const { return text("out/run.json"); }
+  std::string log() const { return text("out/run.log"); }
 
   static std::string shipped(const std::string& name) { return "'" GRANVOF_CASES_DIR "/" + name + ".toml'"; }
 
@@ -64,7 +65,7 @@ TEST_F(Program, PrintsVersionAndHelp) {
   EXPECT_EQ(version.out.rfind("granvof ", 0), 0U) << version.out;
   const Outcome help = granvof("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* word : {"run", "check", "restate", "keys"})
+  for (const char* word : {"run", "check", "report", "restate", "keys"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
 }
 
@@ -153,6 +154,7 @@ TEST_F(Program, RefusesBadCommands) {
   expect_refused("run", "case is required");
   expect_refused("run " + shipped("s1") + " --threads 0", "--threads");
   expect_refused("run " + shipped("s1") + " --thread 2", "--thread");
+  expect_refused("run " + shipped("s1") + " --stop-after 50", "--stop-after");
 }
 
 TEST_F(Program, RefusesBadCasesAndWritesNothing) {
@@ -211,6 +213,14 @@ TEST_F(Program, WarnsOnStderrWhateverBecomesOfStdout) {
   EXPECT_NE(record().find("\"state\": \"finished\""), std::string::npos);
 }
 
+TEST_F(Program, StopsAtItsWallClockLimitWithAnExitCodeOfItsOwn) {
+  const Outcome stopped =
+      granvof("run " + shipped("canary-dry") + " --set grid.dx=0.005 --out out --stop-after 0.0001s");
+  EXPECT_EQ(stopped.code, 3);
+  EXPECT_NE(stopped.err.find("--resume goes on from t = "), std::string::npos) << stopped.err;
+  EXPECT_NE(record().find("\"kind\": \"wall-clock limit\""), std::string::npos) << record();
+}
+
 TEST_F(Program, AFileThatMayNotGrowIsAnErrorLikeAFullDisk) {
   const Outcome outcome =
       granvof("run " + shipped("canary-dry") + dense + " --out out", "ulimit -f 30 &&");  // of 512 bytes
@@ -230,6 +240,30 @@ TEST_F(Program, ReplacesAnotherCasesRunOnlyIfForced) {
   EXPECT_EQ(granvof(other + " --resume").code, 2);
   EXPECT_EQ(granvof(other + " --resume --force").code, 2);
   EXPECT_EQ(granvof(other + " --force").code, 0);
+}
+
+// The maker of the report is compare/show, in the tree as it is installed.
+TEST_F(Program, HandsRunsOverToTheReport) {
+  ASSERT_EQ(granvof("run " + shipped("canary-dry") + dense + " --out out").code, 0);
+  const Outcome outcome = granvof("report out");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("report.html"), std::string::npos) << outcome.out;
+  EXPECT_EQ(granvof("report nothing-here").code, 2);
+}
+
+TEST_F(Program, SaysWhereItLookedForTheReport) {
+  const Outcome outcome = granvof("", "cp '" GRANVOF_PROGRAM "' alone && ./alone report out; exit $?;");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("compare/show, which makes it, is neither"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Program, EndsWithOneLineAndKeepsALog) {
+  const Outcome outcome = granvof("run " + shipped("canary-dry") + dense + " --out out");
+  const std::size_t at = outcome.err.find("canary-dry: finished, t = ");
+  ASSERT_NE(at, std::string::npos) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("next: granvof report out\n")) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin() + static_cast<std::ptrdiff_t>(at), outcome.err.end(), '\n'), 1);
+  EXPECT_NE(log().find("canary-dry: finished"), std::string::npos);
 }
 
 }  // namespace

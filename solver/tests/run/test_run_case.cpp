@@ -74,6 +74,7 @@ TEST_F(RunCase, FinishesAndKeepsItsVolumes) {
   EXPECT_EQ(record["cells"], 128);
   EXPECT_EQ(record["exit"]["state"], "finished");
   EXPECT_EQ(record["exit"]["reason"], "");
+  EXPECT_EQ(record["exit"]["kind"], "finished");
   EXPECT_NEAR(record["simulated_time"].get<double>(), 0.1, 1e-12);
   EXPECT_GT(record["steps"].get<int>(), 20);
   EXPECT_GT(record["core_seconds"].get<double>(), 0.0);
@@ -198,8 +199,33 @@ TEST_F(RunCase, EverySignalOfASchedulerOrAShellStopsItWithACheckpoint) {
     const json exit = record_of(path(name.c_str()))["exit"];
     EXPECT_EQ(exit["state"], "stopped");
     EXPECT_EQ(exit["reason"], "stopped by a signal (" + name + ")");
+    EXPECT_EQ(exit["kind"], signal == SIGXCPU ? "CPU limit" : "signal");
     EXPECT_EQ(exit["resume_from"], read_checkpoint(path(name.c_str()) / "checkpoint.h5", scene).time);
   }
+}
+
+// A limit that is up after the first step stops each part after one step.
+TEST_F(RunCase, StoppedAtItsWallClockLimitAndResumedItIsTheSameRun) {
+  const Scene scene = column_scene();
+  ASSERT_EQ(run_into(path("whole"), scene), 0);
+  RunOptions options{path("parts"), "test"};
+  options.progress = false;
+  options.stop_after = 1e-9;
+  for (int part = 1; part <= 3; ++part) {
+    EXPECT_EQ(run_case(scene, options), exit_code_at_wall_clock_limit);
+    options.resume = true;
+    const json record = record_of(path("parts"));
+    EXPECT_EQ(record["steps"], part);
+    EXPECT_EQ(record["exit"]["state"], "stopped");
+    EXPECT_EQ(record["exit"]["kind"], "wall-clock limit");
+    EXPECT_EQ(record["exit"]["resume_from"], read_checkpoint(path("parts") / "checkpoint.h5", scene).time);
+  }
+  options.stop_after = 3600.0;
+  ASSERT_EQ(run_case(scene, options), 0);
+  EXPECT_EQ(record_of(path("parts"))["resumptions"].size(), 3U);
+  EXPECT_EQ(text_of(path("whole") / "series.csv"), text_of(path("parts") / "series.csv"));
+  EXPECT_EQ(text_of(path("whole") / "fields.h5"), text_of(path("parts") / "fields.h5"));
+  expect_same_checkpoints(path("whole"), path("parts"), scene);
 }
 
 TEST_F(RunCase, AnEndThatItSurvivesIsInTheRecord) {
@@ -215,6 +241,7 @@ TEST_F(RunCase, AnEndThatItSurvivesIsInTheRecord) {
   EXPECT_EQ(exit["state"], "failed");
   EXPECT_NE(exit["reason"].get<std::string>().find("removed or replaced"), std::string::npos)
       << exit["reason"];
+  EXPECT_EQ(exit["kind"], "output");
   EXPECT_TRUE(exit["resume_from"].is_null());
   // a value that no formula was made for
   for (const char* unusual : {"solid.friction=1e30", "contact.stiffness=1e30", "liquid.viscosity=1e30"}) {
@@ -253,6 +280,7 @@ TEST_F(RunCase, StepCollapseLeavesTheLastGoodStateAndTheReason) {
   EXPECT_EQ(run_into(path("run"), scene), 1);
   const json record = record_of(path("run"));
   EXPECT_EQ(record["exit"]["state"], "failed");
+  EXPECT_EQ(record["exit"]["kind"], "step collapse");
   const std::string reason = record["exit"]["reason"];
   EXPECT_NE(reason.find("step collapse at t = 0"), std::string::npos) << reason;
   EXPECT_NE(reason.find("did not converge in 1 iterations"), std::string::npos) << reason;
@@ -277,6 +305,7 @@ TEST_F(RunCase, ANanEndsTheRunWithAReason) {
     EXPECT_EQ(run_into(path(name), whole, true), 1) << name;
     const json record = record_of(path(name));
     EXPECT_EQ(record["exit"]["state"], "failed") << name;
+    EXPECT_EQ(record["exit"]["kind"], "not finite") << name;
     EXPECT_NE(record["exit"]["reason"].get<std::string>().find("finite"), std::string::npos)
         << name << ": " << record["exit"]["reason"];
     for (const auto& row : read_series(path(name) / "series.csv").rows) EXPECT_LE(*row[0], 0.02 + 1e-12);

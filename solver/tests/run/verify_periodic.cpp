@@ -178,9 +178,8 @@ Difference difference(const Simulation& given, const Simulation& shifted, int al
   return worst;
 }
 
-// `moved` is the scene with everything that is not part of the state shifted. `known`: up to where it fails
-// as expected, red if it gets worse and if it is mended.
-void expect_shift_invariant(const Scene& scene, const Scene& moved, int along, double known = agreement) {
+// `moved` is the scene with everything that is not part of the state shifted.
+void expect_shift_invariant(const Scene& scene, const Scene& moved, int along) {
   Simulation given(scene), shifted(moved);
   disturb(given);
   set_shifted(given, along, shifted);
@@ -191,13 +190,10 @@ void expect_shift_invariant(const Scene& scene, const Scene& moved, int along, d
     shifted.advance();
     if (::testing::Test::HasFatalFailure()) return;
     const Difference d = difference(given, shifted, along);
-    EXPECT_LT(d.largest, known) << d.where << ", along "
-                                << "xyz"[along] << ", step " << i + 1;
+    EXPECT_LT(d.largest, agreement) << d.where << ", along "
+                                    << "xyz"[along] << ", step " << i + 1;
     furthest = std::fmax(furthest, d.largest);
     set_shifted(given, along, shifted);
-  }
-  if (known > agreement) {
-    EXPECT_GT(furthest, agreement) << "mended";
   }
   std::ostringstream text;
   text << furthest;
@@ -254,10 +250,7 @@ class Seam : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Seam, AShiftAlongXShiftsTheResult) {
   const Scene scene = scene_2d(GetParam().overrides);
-  // With explicit contacts the linear solver leaves 1.5e-7 of P_c in one of the steps; why there was not
-  // found.
-  const bool explicit_contacts = scene.numerics.contact_pressure == ContactPressure::explicit_;
-  expect_shift_invariant(scene, scene, 0, explicit_contacts ? 2e-7 : agreement);
+  expect_shift_invariant(scene, scene, 0);
 }
 
 TEST_P(Seam, AShiftAlongXOrZShiftsTheResultIn3D) {
@@ -284,7 +277,9 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"coulomb_floor", {"walls.bottom.solid=coulomb", "walls.bottom.solid_friction=0.2"}},
         Variant{"slip", {"walls.all=slip", "walls.bottom.fluid=no-slip", "walls.bottom.solid=no-slip"}},
         Variant{"thick_liquid", {"liquid.viscosity=5"}}, Variant{"light_grains", {"solid.density=500"}},
-        Variant{"explicit_contact", {"numerics.contact_pressure=explicit"}},
+        // its one solve ends at the tolerance, where Newton's last one overshoots: 1e-12 leaves 1.5e-7 of P_c
+        Variant{"explicit_contact",
+                {"numerics.contact_pressure=explicit", "numerics.volume_tolerance=1e-14"}},
         Variant{
             "everything",
             {"numerics.solid_flux=limited", "numerics.bed_surface=part-cells", "model.friction_law=inertial",

@@ -29,6 +29,21 @@ TEST(CostEstimate, IsWithinAFactorOfTwoOfTheStepsOfRealRuns) {
   }
 }
 
+// Of a processor of 2023; another may be twice as fast.
+TEST(CostEstimate, IsWithinAFactorOfFiveOfTheCoreSecondsOfRealRuns) {
+  struct Taken {
+    std::string scene;
+    double core_seconds;
+  };
+  for (const Taken& taken :
+       {Taken{"dam-break", 0.9}, Taken{"dry-column", 2.57}, Taken{"float-full-r04", 3.69},
+        Taken{"heap", 4.63}, Taken{"s1", 2.26}, Taken{"s2", 3.45}, Taken{"sloshing", 0.84}}) {
+    const double estimate = estimate_cost(shipped(taken.scene)).core_seconds;
+    EXPECT_GT(estimate, 0.2 * taken.core_seconds) << taken.scene;
+    EXPECT_LT(estimate, 5.0 * taken.core_seconds) << taken.scene;
+  }
+}
+
 TEST(CostEstimate, GrowsWithCellsAndWithShorterSteps) {
   const CostEstimate coarse = estimate_cost(shipped("s1"));
   const CostEstimate fine = estimate_cost(shipped("s1", {"grid.dx=0.00125"}));

@@ -185,6 +185,8 @@ TEST(LoadScene, FillsInTheReference) {
   ASSERT_TRUE(scene.reference);
   EXPECT_EQ(scene.reference->bead_friction, 0.4);
   EXPECT_EQ(scene.reference->wall_friction, 0.4);
+  EXPECT_EQ(scene.reference->gate_friction, 0.4);
+  EXPECT_EQ(small({"reference.wall_friction=0.3"}).reference->gate_friction, 0.3);
   EXPECT_EQ(scene.reference->bead_restitution, 0.9);
   EXPECT_EQ(scene.reference->packing, 0.57);
   EXPECT_EQ(scene.reference->release, ReferenceRelease::gate);
@@ -255,6 +257,11 @@ TEST(Hash, AKeyThatCameAfterTheRecordsCountsOnlyAwayFromItsDefault) {
   const Scene coarse = small({"reference.coarse_graining=2"});
   EXPECT_NE(coarse.hash, small().hash);
   EXPECT_NE(coarse.reference_hash, small().reference_hash);
+  const Scene plate = small({"reference.gate_friction=0.4"});  // the walls'
+  EXPECT_EQ(plate.reference_hash, small().reference_hash);
+  const Scene smooth = small({"reference.gate_friction=0"});
+  EXPECT_NE(smooth.hash, small().hash);
+  EXPECT_NE(smooth.reference_hash, small().reference_hash);
 }
 
 // demvof takes its drag from it.

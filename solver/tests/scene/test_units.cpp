@@ -107,6 +107,8 @@ TEST(Scales, OfABed) {
   EXPECT_DOUBLE_EQ(s.velocity, std::sqrt(9.81 * 0.05));
   EXPECT_DOUBLE_EQ(s.time(), small().times.unit);
   EXPECT_DOUBLE_EQ(s.pressure, 1500.0 * 9.81 * 0.05);
+  const Vec3 tank = small().tank;  // full of liquid at that velocity
+  EXPECT_DOUBLE_EQ(s.energy, 0.5 * small().liquid.density * 9.81 * 0.05 * tank[0] * tank[1] * tank[2]);
   EXPECT_DOUBLE_EQ(scales_of(small({"liquid=false"})).pressure, 2499.0 * 9.81 * 0.05);
   EXPECT_DOUBLE_EQ(scales_of(small({"solid.density=1000"})).pressure, 9.81 * 0.05);
 }

@@ -1,5 +1,6 @@
 // Granular temperature (7) and kinetic theory (11), (20)-(23) through the whole time step.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -103,22 +104,19 @@ TEST(SimpleShear, SteadyBalance) {
 
 // Plane shear of frictionless spheres, e0 = 0.7, by DEM: Vescovi et al., Phys. Fluids 26, 053305 (2014).
 // Walls at -U/2 and U/2, no gravity, periodic in x; mean f_s that of the published profile, which is the
-// start. The published gap is not among the data: 20 diameters here, chosen and not fitted; it bears on Theta
-// above all. Uniform shear is a steady state of (7) between walls that pass no fluctuation energy, but an
-// unstable one: the flow finds the published shape, a dense core and two hot dilute layers, by itself.
+// start. The gap is 18 diameters, as sedFoam's set-up of this flow has it; the walls are bumpy by glued
+// spheres, here with psi = 36 degrees (the paper's smaller bumpiness, as remembered) and e_w = e0.
 //
 // The published profile is odd (u) and even (f_s, Theta) about the middle, and so is the one computed: the
-// upper half of the gap, above a middle at rest. 2 x 20 cells, steps of 1e-3 s, time means over t = 10 to 40
-// s, 500 to 2000 shear units H / U. sedFoam asks for rms distances of 0.02 in f_s, 0.03 in u/U, 0.4 of the
-// mean in Theta. All three are expected failures, by name: 0.091, 0.124, 2.8. On its way the flow passes the
-// published profile (t = 4 to 6 s, steps of 1e-4 s: 0.019, 0.041, 0.50) and goes on, to a core that does not
-// shear at f_s,min and a hot layer of three diameters at the wall. That is what the model has: grains of e0 =
-// 0.7 as dense as the core lose by (23) ten times the fluctuation energy of the published ones (correlated
-// collisions, which dissipate less, are not in it), and these walls do not heat them. Red if any gets worse,
-// and if it is met. (A production of Theta at the new strain met f_s, by what steps of 1e-3 s made of
-// nothing; with steps of 2.5e-4 s it ended here too, at 0.092, 0.123, 2.8.)
-TEST(PlaneShear, ProfilesOfVescoviEtAl) {
-  const double d = 1e-3, gap = 0.02, speed = 1.0, half = 0.5 * gap;
+// upper half of the gap, above a middle at rest. 2 x 18 cells, time means over t = 10 to 20 s, 550 to 1100
+// shear units H / U. sedFoam asks for rms distances of 0.02 in f_s, 0.03 in u/U, 0.4 of the mean in Theta.
+struct PlaneShear {
+  double f_s = 0.0, u = 0.0, theta = 0.0;  // rms distances [-]
+};
+
+PlaneShear plane_shear(const std::vector<std::string>& choices, double gap_in_diameters,
+                       const std::string& wall) {
+  const double d = 1e-3, gap = gap_in_diameters * d, speed = 1.0, half = 0.5 * gap;
   const auto f_data = published("vescovi2014/solid_fraction.tsv");
   const auto u_data = published("vescovi2014/velocity.tsv");
   const auto theta_data = published("vescovi2014/granular_temperature.tsv");
@@ -127,11 +125,11 @@ TEST(PlaneShear, ProfilesOfVescoviEtAl) {
   const auto start = [&](double y) { return 0.5 * (f_profile(0.5 + y / gap) + f_profile(0.5 - y / gap)); };
   double mean = 0.0;
   for (int i = 0; i < 1000; ++i) mean += start((i + 0.5) / 1000.0 * half) / 1000.0;
-  const std::string walls = std::string(periodic_x) +
-                            "bottom.solid = \"no-slip\"\n"
-                            "top.solid = \"no-slip\"\ntop.velocity = [0.5, 0]\n";
-  Simulation run(parse_scene(dry(0.01, half, 0.005, walls, mean, 0.7, d, 1e-3), "shear",
-                             std::vector<std::string>{"grid.dy=0.0005"}));
+  const std::string walls = std::string(periodic_x) + "bottom.solid = \"no-slip\"\ntop = { fluid = " +
+                            "\"no-slip\", velocity = [0.5, 0], " + wall + " }\n";
+  std::vector<std::string> overrides{"grid.dy=0.0005"};
+  overrides.insert(overrides.end(), choices.begin(), choices.end());
+  Simulation run(parse_scene(dry(0.01, half, 0.005, walls, mean, 0.7, d, 1e-3), "shear", overrides));
   const int rows = run.grid.cells.n[1];
   run.set(run.now.f_s, [&](double, double y) { return start(y); });
   for (FaceField* u : {&run.now.u_s, &run.now.u_c, &run.now.u_strain})
@@ -139,11 +137,11 @@ TEST(PlaneShear, ProfilesOfVescoviEtAl) {
   run.now.theta.fill(1e-3);
   run.fill_ghosts();
   run.until(10.0);
-  if (HasFatalFailure()) return;
+  if (::testing::Test::HasFatalFailure()) return {};
   std::vector<std::array<double, 3>> sum(static_cast<std::size_t>(rows));
   const double begin = run.now.time;
   double last = begin;
-  run.until(40.0, [&] {
+  run.until(20.0, [&] {
     const double dt = run.now.time - last;
     last = run.now.time;
     for (int j = 0; j < rows; ++j) {
@@ -154,7 +152,7 @@ TEST(PlaneShear, ProfilesOfVescoviEtAl) {
       row[2] += dt * run.now.theta[c] / (speed * speed);
     }
   });
-  if (HasFatalFailure()) return;
+  if (::testing::Test::HasFatalFailure()) return {};
   Curve f, u, theta;  // over the whole gap
   for (int j = -rows; j < rows; ++j) {
     const double y = 0.5 + 0.5 * (j + 0.5) / rows;
@@ -162,7 +160,7 @@ TEST(PlaneShear, ProfilesOfVescoviEtAl) {
     f.add(y, row[0] / (last - begin));
     u.add(y, 0.5 + (j < 0 ? -row[1] : row[1]) / (last - begin));
     theta.add(y, row[2] / (last - begin));
-    if (j >= 0 && j % 4 == 1)
+    if (j >= 0 && (j % 4 == 1 || j == rows - 1))
       std::printf("    y/H %.3f f_s %.3f (%.3f) u/U %.3f Theta/U2 %.2e\n", y, f(y), f_profile(y), u(y),
                   theta(y));
   }
@@ -173,23 +171,34 @@ TEST(PlaneShear, ProfilesOfVescoviEtAl) {
   };
   double theta_mean = 0.0;
   for (const auto& row : theta_data) theta_mean += row[0] / static_cast<double>(theta_data.size());
-  const double rms_f = rms(f_data, f), rms_u = rms(u_data, u),
-               rms_theta = rms(theta_data, theta) / theta_mean;
-  report("mean_f_s", mean);
-  report("rms_f_s", rms_f);
-  report("rms_u_over_U", rms_u);
-  report("rms_theta_over_mean", rms_theta);
+  const PlaneShear off{rms(f_data, f), rms(u_data, u), rms(theta_data, theta) / theta_mean};
+  report("rms_f_s", off.f_s);
+  report("rms_u_over_U", off.u);
+  report("rms_theta_over_mean", off.theta);
   report("f_s_middle", f(0.5));
   report("f_s_wall", f(1.0));
   report("theta_middle", theta(0.5));
-  report("theta_of_uniform_shear", d * d / (gap * gap) / (15.0 * 0.3));
+  report("theta_wall", theta(1.0));
   report("steps", run.steps);
-  EXPECT_GT(rms_f, 0.020);
-  EXPECT_LT(rms_f, 0.100);
-  EXPECT_GT(rms_u, 0.030);
-  EXPECT_LT(rms_u, 0.135);
-  EXPECT_GT(rms_theta, 0.40);
-  EXPECT_LT(rms_theta, 3.1);
+  return off;
+}
+
+const std::vector<std::string> dense_collisions{
+    "model.radial_distribution=jamming", "model.correlated_collisions=true",
+    // smooth spheres touch nowhere below where they jam, and have no (15)
+    "contact.solid_fraction_max=0.636", "contact.solid_fraction_min=0.63", "model.dilatancy_pressure=false"};
+const std::string glued_spheres = "solid = \"bumpy\", bumpiness = 36";
+
+// Met in f_s (0.014) and u (0.015). Theta is missed by name, 0.68 for 0.4: at the wall it is 0.0025 of their
+// 0.0042, which is the loss to the bumps: with e_w = 0.85 it is 0.0053, and the rms 0.46. What each part is
+// worth stands in docs/theory/choices.md; the paper's laws and no-slip walls leave 0.091, 0.124, 2.8 (20
+// diameters). Red if Theta gets worse, and if it is met.
+TEST(PlaneShear, ProfilesOfVescoviEtAl) {
+  const PlaneShear off = plane_shear(dense_collisions, 18.0, glued_spheres);
+  EXPECT_LT(off.f_s, 0.020);
+  EXPECT_LT(off.u, 0.030);
+  EXPECT_GT(off.theta, 0.40);
+  EXPECT_LT(off.theta, 0.75);
 }
 
 // A dry column on cells of 0.8 and 0.4 grain diameters falls: Theta gains what the kinetic stress loses. What

@@ -1,4 +1,4 @@
-#include "compare/study/work_unit.hpp"
+#include "compare/engine/work_unit.hpp"
 
 #include <ctime>
 #include <stdexcept>

@@ -1,0 +1,131 @@
+"""The rows of `make verify` against a fault: runs made again with it, cheapest first, until a row changes its verdict."""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+
+from mutation import process
+
+DEAREST, ALL = 4.0, 60.0  # core-seconds of a run, and of all that are tried, by the kept costs
+
+
+class Rows:
+    """The runs that are cheap enough, made without a fault, and the verdicts that follow."""
+
+    def __init__(self, tree, work, scratch, dearest=DEAREST, budget=ALL):
+        self.tree, self.work, self.scratch = tree, work, scratch
+        self.build = tree / "build/release"
+        self.solver, self.compare = self.build / "solver/granvof", self.build / "compare/granvof-compare"
+        self.dearest, self.budget = dearest, budget
+        self.runs, self.reached, self.seconds = [], {}, {}
+
+    def plan(self):
+        """(id, case, overrides) of the runs, cheapest first."""
+        said = subprocess.run([self.compare, "plan", "--frequency", "verify"], cwd=self.tree, check=True,
+                              stdout=subprocess.PIPE, text=True).stdout
+        kept = json.loads((self.tree / "compare/kept/verify/results.json").read_text(encoding="utf-8"))["costs"]
+        planned = [(fields[0], fields[1], fields[2:]) for fields in (line.split("\t") for line in said.splitlines())]
+        cost = {run[0]: kept[run[0]]["core_seconds"] for run in planned if run[0] in kept}
+        chosen, spent = [], 0.0
+        for run in sorted((run for run in planned if run[0] in cost), key=lambda run: cost[run[0]]):
+            spent += cost[run[0]]
+            if cost[run[0]] > self.dearest or spent > self.budget:
+                break
+            chosen.append(run)
+        return chosen
+
+    def make(self, run, directory, time_limit, environment):
+        identity, case, overrides = run
+        command = [self.solver, "run", f"cases/{case}.toml", "--out", directory / identity, "--threads", "1", "--force"]
+        for override in overrides:
+            command += ["--set", override]
+        return process.run(command, self.tree, time_limit, self.scratch, environment)
+
+    def verdicts(self, runs, environment, out):
+        """{id of a row: verdict} of the runs in that directory; None where there is no comparison."""
+        shutil.rmtree(out, ignore_errors=True)
+        ended = process.run([self.compare, "check", "--runs", runs, "--leave-out", "canary", "--out", out], self.tree, 300.0,
+                            self.scratch, environment)
+        if ended.code not in (0, 1):
+            return None
+        rows = json.loads((out / "results.json").read_text(encoding="utf-8"))["results"]
+        return {row["id"]: row["verdict"] for row in rows}
+
+    def traced(self, make):
+        """What `make(environment)` gives, and the numbers of the faults it reaches."""
+        notes = self.scratch / "reached"
+        notes.unlink(missing_ok=True)
+        made = make({"GRANVOF_MUTANTS_REACHED": str(notes)})
+        return made, set(notes.read_text().split()) if notes.exists() else set()
+
+    def without_fault(self, say):
+        """Makes the runs and judges them; what was found for the same programs is taken as it is. What is wrong, else ''."""
+        kept = self.work / "rows.json"
+        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, self.dearest, self.budget]
+        self.runs = self.plan()
+        base = self.work / "runs"
+        if kept.exists():
+            before = json.loads(kept.read_text(encoding="utf-8"))
+            if before["stamp"] == stamp:
+                self.reached = {name: set(numbers) for name, numbers in before["reached"].items()}
+                self.seconds, self.base = before["seconds"], before["verdicts"]
+                return ""
+        shutil.rmtree(base, ignore_errors=True)
+        base.mkdir(parents=True)
+        for run in self.runs:
+            begun = time.monotonic()
+            ended, self.reached[run[0]] = self.traced(lambda environment: self.make(run, base, 600.0, environment))
+            self.seconds[run[0]] = round(time.monotonic() - begun, 2)
+            if ended.code != 0:
+                return f"the run {run[0]} fails without a fault: {ended.how}"
+            say(f"without a fault: {run[0]}, {self.seconds[run[0]]:.1f} s")
+        begun = time.monotonic()
+        self.base, self.reached["check"] = self.traced(lambda environment: self.verdicts(base, environment, self.work / "verdicts"))
+        self.seconds["check"] = round(time.monotonic() - begun, 2)
+        if self.base is None:
+            return "the rows cannot be judged without a fault"
+        kept.write_text(json.dumps({"stamp": stamp, "reached": {name: sorted(numbers) for name, numbers in self.reached.items()},
+                                    "seconds": self.seconds, "verdicts": self.base}), encoding="utf-8")
+        return ""
+
+    def judge(self, mutant):
+        """("noticed", the row), ("survived", "") or ("not reached", "")."""
+        environment = {"GRANVOF_MUTANT": mutant.number}
+        due = [run for run in self.runs if mutant.number in self.reached[run[0]]]
+        if not due and mutant.number not in self.reached["check"]:
+            return "not reached", ""
+        place = self.work / "with-fault"
+        shutil.rmtree(place, ignore_errors=True)
+        place.mkdir(parents=True)
+        for run in self.runs:
+            os.symlink(self.work / "runs" / run[0], place / run[0])
+        if mutant.number in self.reached["check"]:
+            changed = self.changed(place, environment)
+            if changed:
+                return "noticed", changed
+        remaining, some = list(due), 1
+        while remaining:
+            for run in remaining[:some]:
+                (place / run[0]).unlink()
+                ended = self.make(run, place, process_limit(self.seconds[run[0]]), environment)
+                if ended.code != 0:
+                    return "noticed", f"run {run[0]}: {ended.how}"
+            remaining, some = remaining[some:], 2 * some
+            changed = self.changed(place, environment)
+            if changed:
+                return "noticed", changed
+        return "survived", ""
+
+    def changed(self, runs, environment):
+        """The first row with another verdict, or ''."""
+        now = self.verdicts(runs, environment, self.work / "verdicts-with-fault")
+        if now is None:
+            return "the comparison fails"
+        return next((f"{row}: {self.base.get(row, 'no row')} -> {now.get(row, 'no row')}" for row in {**self.base, **now}
+                     if now.get(row) != self.base.get(row)), "")
+
+
+def process_limit(seconds):
+    return 20.0 + 10.0 * seconds

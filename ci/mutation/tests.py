@@ -1,0 +1,133 @@
+"""The tests of the copy as CTest lists them, what each takes and which faults each reaches, and who notices a fault."""
+
+import json
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mutation import process
+
+LADDERS = {"unit": "unit", "verification": "ladder"}  # label of a test -> whom it belongs to
+PATIENCE, SLOWER = 20.0, 4.0  # a test may take so many seconds and so many times longer than without a fault
+PYTHON_TESTS = "compare/tests"
+
+
+@dataclass
+class Test:
+    name: str
+    ladder: str
+    program: str
+    arguments: list  # of the program, for this test alone
+    filter: str  # of GoogleTest; empty: the program is no GoogleTest program
+    folder: str  # whose tests these are, as solver/closures
+    environment: dict
+    seconds: float = 0.0
+    reached: list = field(default_factory=list)  # numbers of the faults whose place it passes
+
+
+def listed(build):
+    """Tests of CTest with a known label, in its order."""
+    said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE).stdout
+    found = []
+    for entry in json.loads(said)["tests"]:
+        properties = {item["name"]: item["value"] for item in entry.get("properties", [])}
+        ladder = next((LADDERS[label] for label in properties.get("LABELS", []) if label in LADDERS), None)
+        if ladder is None or "command" not in entry:
+            continue
+        program, *arguments = entry["command"]
+        chosen = next((part.split("=", 1)[1] for part in arguments if part.startswith("--gtest_filter=")), "")
+        environment = dict(item.split("=", 1) for item in properties.get("ENVIRONMENT", []))
+        found.append(Test(entry["name"], ladder, program, arguments, chosen, folder_of(program, build), environment))
+    return found
+
+
+def folder_of(program, build):
+    """solver/tests/closures/... are the tests of solver/closures; compare/tests/... of compare."""
+    parts = Path(program).resolve().relative_to(Path(build).resolve()).parts if Path(program).is_absolute() and \
+        Path(program).resolve().is_relative_to(Path(build).resolve()) else ()
+    return "/".join(part for part in parts[:-1] if part != "tests")
+
+
+def without_fault(tests, build, scratch, kept, say):
+    """Times each test and notes what it reaches; `kept` (a file) holds what an earlier call found for the same programs.
+    Names of those that fail without any fault."""
+    before = {}
+    if kept.exists():
+        before = {(entry["name"], entry["stamp"]): entry for entry in json.loads(kept.read_text(encoding="utf-8"))}
+    notes, failed = [], []
+    for index, test in enumerate(tests):
+        stamp = Path(test.program).stat().st_mtime_ns
+        entry = before.get((test.name, stamp))
+        if entry is None:
+            reached = scratch / "reached"
+            reached.unlink(missing_ok=True)
+            begun = time.monotonic()
+            ended = process.run([test.program, *test.arguments], build, 900.0, scratch,
+                                {**test.environment, "GRANVOF_MUTANTS_REACHED": str(reached)})
+            entry = {"name": test.name, "stamp": stamp, "seconds": round(time.monotonic() - begun, 3), "ended": ended.code,
+                     "reached": sorted(set(reached.read_text().split())) if reached.exists() else []}
+            if index % 50 == 0:
+                say(f"without a fault: {index} of {len(tests)} tests")
+        test.seconds, test.reached = entry["seconds"], entry["reached"]
+        notes.append(entry)
+        if entry["ended"] != 0:
+            failed.append(test.name)
+        if index % 50 == 49 or index + 1 == len(tests):
+            kept.write_text(json.dumps(notes + [entry for key, entry in before.items() if entry not in notes]), encoding="utf-8")
+    return failed
+
+
+def groups(tests, mutant):
+    """What to start for a fault, in order: the tests that reach its place, program by program, those of its own folder first,
+    then the quick ones."""
+    by_program = {}
+    for test in tests:
+        if mutant.number in test.reached:
+            by_program.setdefault(test.program if test.filter else test.name, []).append(test)
+    def cost(members):
+        return members[0].folder != mutant.folder, sum(test.seconds for test in members)
+    return sorted(by_program.values(), key=cost)
+
+
+def command_of(members):
+    if not members[0].filter:
+        return [members[0].program, *members[0].arguments]
+    return [members[0].program, "--gtest_filter=" + ":".join(test.filter for test in members), "--gtest_fail_fast=1"]
+
+
+def noticed_by(members, ended):
+    """The test that failed, for a person."""
+    for line in ended.output.splitlines():
+        if line.startswith("[  FAILED  ] ") and "." in line:
+            return line.split("] ", 1)[1].split(",")[0].split(" (")[0].strip()
+    return f"{Path(members[0].program).name}, {ended.how}" if members[0].filter else members[0].name
+
+
+def judge(tests, mutant, build, scratch):
+    """("noticed", by whom), ("survived", ""), or ("not reached", "") where no test passes its place."""
+    due = groups(tests, mutant)
+    for members in due:
+        limit = PATIENCE + SLOWER * sum(test.seconds for test in members)
+        ended = process.run(command_of(members), build, limit, scratch, {**members[0].environment, "GRANVOF_MUTANT": mutant.number})
+        if ended.code != 0:
+            return "noticed", noticed_by(members, ended)
+    return ("survived" if due else "not reached"), ""
+
+
+def judge_python(mutant, tree, scratch):
+    """The same for what is not compiled, by the Python tests of the comparison; the file is altered already."""
+    ended = process.run(["/usr/bin/python3", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "--import-mode=importlib",
+                         *python_tests(mutant, tree)], tree, 600.0, scratch, {"PYTHONDONTWRITEBYTECODE": "1"})
+    if ended.code == 0:
+        return "survived", ""
+    failed = [line.split(" ")[1] for line in ended.output.splitlines() if line.startswith(("FAILED ", "ERROR "))]
+    return "noticed", failed[0].split("/")[-1] if failed else f"pytest, {ended.how}"
+
+
+def python_tests(mutant, tree):
+    """Those that name the module first, then all."""
+    module = Path(mutant.file).stem
+    own = [path for path in sorted((tree / PYTHON_TESTS).glob("test_*.py")) if module in path.read_text(encoding="utf-8")]
+    rest = [path for path in sorted((tree / PYTHON_TESTS).glob("test_*.py")) if path not in own]
+    return [path.relative_to(tree) for path in own + rest]

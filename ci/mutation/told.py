@@ -1,0 +1,110 @@
+"""What was noticed by whom: the kept results, and a section of the report made of them (compare/report/sections.py)."""
+
+import datetime
+import json
+import subprocess
+
+COLUMNS = {"unit": "unit tests", "ladder": "verification ladder", "rows": "rows of make verify"}
+LONGEST_LIST = 100  # survivors in the report
+
+
+def read(path):
+    """{number of a fault: entry}; nothing where there is no such file."""
+    if not path.exists():
+        return {}
+    return {entry["number"]: entry for entry in json.loads(path.read_text(encoding="utf-8"))["mutants"]}
+
+
+def write(path, entries):
+    write_json(path, {"mutants": list(entries)})
+
+
+def write_json(path, content):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_suffix(".tmp")
+    draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    draft.replace(path)
+
+
+def commit_of(root):
+    return subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=root, capture_output=True, text=True).stdout.strip()
+
+
+def tried(entry, by=None):
+    return any(key in entry for key in ([by] if by else COLUMNS))
+
+
+def noticed(entry, by=None):
+    return any(entry[key]["verdict"] == "noticed" for key in ([by] if by else COLUMNS) if key in entry)
+
+
+def survived(entry):
+    """Noticed by none of those it was tried against, and both kinds of tests are among these."""
+    return "unit" in entry and ("ladder" in entry) and not noticed(entry)
+
+
+def share(entries, by=None):
+    known = [entry for entry in entries if tried(entry, by)]
+    return f"{sum(noticed(entry, by) for entry in known)} of {len(known)}"
+
+
+def state(entry):
+    if noticed(entry):
+        return "noticed"
+    if entry.get("why"):
+        return "cannot be noticed"
+    return "survived" if survived(entry) else "not yet tried against all"
+
+
+def counted(entries):
+    """(noticed, of how many that could be noticed and were tried to an end)."""
+    states = [state(entry) for entry in entries]
+    return states.count("noticed"), states.count("noticed") + states.count("survived")
+
+
+def section(mutants, results, commit):
+    """`mutants`: the list as it is now; results of faults that are no longer in it are left out."""
+    entries = [{**results[mutant.number], "why": mutant.why} for mutant in mutants if mutant.number in results]
+    by_folder = {}
+    for entry in entries:
+        by_folder.setdefault("/".join(entry["file"].split("/")[:2]), []).append(entry)
+    done, of = counted(entries)
+    text = [f"{len(mutants)} small faults (ci/mutants) were put into the code one at a time; {len(entries)} of them have been tried. "
+            f"Of {of} that were tried to an end, {done} were noticed"
+            + (f" ({100 * done / of:.1f} %)." if of else "."),
+            "Each is tried against the unit tests, what survives these against the verification ladder; apart from that, "
+            f"a share against the rows of make verify alone, on the runs that cost little: {share(entries, 'rows')} noticed. "
+            "Where a fault was noticed, those that come after it in the order were not asked."]
+    columns = ["folder", "faults", *COLUMNS.values(), "noticed", "survived", "cannot be noticed"]
+    rows = []
+    for folder, members in sorted(by_folder.items()) + [("all", entries)]:
+        states = [state(entry) for entry in members]
+        rows.append([folder, len(members), *(share(members, by) for by in COLUMNS), states.count("noticed"),
+                     states.count("survived"), states.count("cannot be noticed")])
+    tables = [{"caption": "Faults noticed, of those tried, by whom", "columns": columns, "rows": rows}]
+    left = [[entry["file"], entry["name"], f"{entry['was']} → {entry['now']}", entry.get("why", "") or state(entry)]
+            for entry in entries if state(entry) != "noticed"]
+    if left:
+        tables.append({"caption": "Not noticed", "columns": ["file", "fault", "change", "why"], "rows": left[:LONGEST_LIST]})
+    found = [[entry["file"], entry["name"], f"{entry['was']} → {entry['now']}", *(by_whom(entry, key) for key in COLUMNS)]
+             for entry in entries if noticed(entry)]
+    if found:
+        tables.append({"caption": "Noticed by whom", "columns": ["file", "fault", "change", *COLUMNS.values()], "rows": found})
+    return {"title": "Faults that would be noticed", "text": text, "figures": [], "tables": tables, "commit": commit,
+            "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def by_whom(entry, key):
+    if key not in entry:
+        return "–"
+    return entry[key]["by"] if entry[key]["verdict"] == "noticed" else entry[key]["verdict"]
+
+
+def score_lines(mutants, results):
+    """For the terminal."""
+    shown = section(mutants, results, "")
+    table = shown["tables"][0]
+    widths = [max(len(str(row[i])) for row in [table["columns"], *table["rows"]]) for i in range(len(table["columns"]))]
+    lines = ["  ".join(f"{str(cell):<{width}}" for cell, width in zip(row, widths)).rstrip()
+             for row in [table["columns"], *table["rows"]]]
+    return lines + shown["text"][:1]

@@ -1,0 +1,1 @@
+"""The run engine: compare/engine/engine.hpp, and its client for scripts."""

@@ -1,0 +1,104 @@
+#include "compare/engine/made.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <exception>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "compare/input/run.hpp"
+#include "solver/output/atomic_file.hpp"
+
+namespace granvof::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* note_file = "made.json";
+constexpr std::array cut_short{"running", "signal", "CPU limit", "wall-clock limit"};
+// The same again would end so again.
+constexpr std::array for_good{"finished", "step collapse", "not finite", "alarm", "error"};
+
+template <typename Names>
+bool is_one_of(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::optional<RunFacts> facts_in(const fs::path& directory) {
+  try {
+    return fs::exists(directory / "run.json") ? std::optional(read_facts(directory / "run.json"))
+                                              : std::nullopt;
+  } catch (const std::exception&) {
+    return std::nullopt;  // damaged: it says nothing
+  }
+}
+
+}  // namespace
+
+std::string short_hash(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::optional<Note> read_note(const fs::path& directory) {
+  if (!fs::is_regular_file(directory / note_file)) return std::nullopt;
+  try {
+    const auto json = nlohmann::json::parse(read_file(directory / note_file));
+    return Note{json.at("program"),      json.at("case"),      json.at("set"),
+                json.at("kind"),         json.at("message"),   {json.at("wall_limit"), json.at("cpu_limit")},
+                json.at("core_seconds"), json.at("work_units")};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+void write_note(const fs::path& directory, const Note& note) {
+  const nlohmann::ordered_json json{{"program", note.program},
+                                    {"case", note.case_hash},
+                                    {"set", note.set},
+                                    {"kind", note.kind},
+                                    {"message", note.message},
+                                    {"wall_limit", note.limits.wall_seconds},
+                                    {"cpu_limit", note.limits.cpu_seconds},
+                                    {"core_seconds", note.core_seconds},
+                                    {"work_units", note.work_units}};
+  write_file_atomically(directory / note_file,
+                        json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void forget_note(const fs::path& directory) {
+  fs::remove(directory / note_file);
+}
+
+bool is_made(const fs::path& directory, const std::string& program, const std::string& resolved_case,
+             const Limits& limits) {
+  const auto note = read_note(directory);
+  if (!note || note->program != program || note->case_hash != short_hash(resolved_case)) return false;
+  const auto as_long = [](double then, double now) { return then > 0.0 && now > 0.0 && now <= then; };
+  if (note->kind == ending::time_limit) return as_long(note->limits.wall_seconds, limits.wall_seconds);
+  if (note->kind == ending::cpu_limit) return as_long(note->limits.cpu_seconds, limits.cpu_seconds);
+  if (note->kind != ending::finished) return is_one_of(for_good, note->kind);
+  const auto facts = facts_in(directory);
+  return facts && facts->kind == ending::finished;
+}
+
+bool can_be_gone_on_with(const fs::path& directory, const std::string& program,
+                         const std::string& resolved_case) {
+  const auto facts = facts_in(directory);
+  if (!facts || facts->resolved_case != resolved_case || !is_one_of(cut_short, facts->kind)) return false;
+  const std::string version = fmt::format("granvof {} ({})", facts->version, facts->commit);
+  return version == program && fs::exists(directory / "checkpoint.h5");
+}
+
+std::optional<double> core_seconds_of(const fs::path& directory) {
+  const auto facts = facts_in(directory);
+  return facts ? facts->number("core_seconds") : std::nullopt;
+}
+
+}  // namespace granvof::compare

@@ -1,0 +1,180 @@
+"""What is no file is not opened: by no reader of ours, and not through a link inside an HDF5 file either."""
+
+import json
+import os
+import signal
+import stat
+
+import h5py
+import numpy as np
+import pytest
+
+import granvof
+import granvof_files
+from border import table
+from lay import from_openfoam, their_series
+from report import results, sections
+
+
+def directory(path):
+    path.mkdir()
+
+
+def pipe(path):
+    os.mkfifo(path)
+
+
+def endless(path):
+    path.symlink_to("/dev/zero")
+
+
+def bound(path):
+    os.mknod(path, stat.S_IFSOCK | 0o600)
+
+
+def to_nothing(path):
+    path.symlink_to(path.with_name("nothing"))
+
+
+def to_itself(path):
+    path.symlink_to(path.name)
+
+
+NOT_FILES = [directory, pipe, endless, bound, to_nothing, to_itself]
+
+
+@pytest.fixture(autouse=True)
+def patience():
+    """A reader that waits for a pipe waits for ever."""
+    def waited(*_):
+        pytest.fail("it waited")
+
+    signal.signal(signal.SIGALRM, waited)
+    signal.alarm(20)
+    yield
+    signal.alarm(0)
+
+
+def run_of(path):
+    path.mkdir(exist_ok=True)
+    (path / "series.csv").write_text("time [s],front_dense [m]\n0,0.1\n0.5,0.2\n")
+    (path / "run.json").write_text(json.dumps({"scene": "s1"}))
+    write_fields(path / "fields.h5", lambda file: fill(file.create_group("t0000")))
+    return path
+
+
+def write_fields(path, fill_it):
+    with h5py.File(path, "w") as file:
+        file.attrs["cells"], file.attrs["spacing"], file.attrs["origin"] = [4, 3, 2], [0.1, 0.2, 0.5], [0.0, 0.0, 0.0]
+        file.attrs["scene"] = np.bytes_("s1")
+        fill_it(file)
+
+
+def fill(group):
+    group.attrs["time"] = 0.0
+    for name in ("f_s", "alpha", "p_c", "theta", "phi"):
+        group[name] = np.zeros((2, 3, 4))
+    group["u_s"] = group["u_c"] = np.zeros((2, 3, 4, 3))
+
+
+@pytest.mark.parametrize("kind", NOT_FILES)
+@pytest.mark.parametrize("name", ["series.csv", "run.json", "fields.h5"])
+def test_a_run_of_which_a_file_is_none(tmp_path, name, kind):
+    run = run_of(tmp_path / "run")
+    (run / name).unlink()
+    kind(run / name)
+    with pytest.raises(granvof.NotARun, match=name):
+        granvof.load(run)
+
+
+@pytest.mark.parametrize("kind", NOT_FILES)
+def test_other_readers(tmp_path, kind):
+    path = tmp_path / "given"
+    kind(path)
+    with pytest.raises(results.Damaged):
+        results.read_json(path)
+    with pytest.raises(their_series.SeriesError):
+        their_series.read(path, {})
+    with pytest.raises(table.TableError):
+        table.read(path)
+    with pytest.raises(OSError):
+        from_openfoam.read_field(path, np.array([1, 1, 1]), 1)
+    (tmp_path / "charts").mkdir()
+    kind(tmp_path / "charts/charts.json")
+    with pytest.raises(results.Damaged):
+        sections.read(tmp_path / "charts")
+
+
+def linked(run):
+    """The run as it is while it goes on: an instant a file."""
+    (run / "fields").mkdir()
+    with h5py.File(run / "fields/t0000.h5", "w") as piece:
+        fill(piece.create_group("instant"))
+    write_fields(run / "fields.h5", lambda file: file.__setitem__("t0000", h5py.ExternalLink("fields/t0000.h5", "/instant")))
+    return run
+
+
+def instants_of(run):
+    return list(results.instants({"directory": str(run)}))
+
+
+def test_the_fields_of_a_run_that_goes_on(tmp_path):
+    run = linked(run_of(tmp_path / "run"))
+    assert list(np.asarray(granvof.load(run).fields["time"])) == [0.0] and len(instants_of(run)) == 1
+
+
+@pytest.mark.parametrize("kind", NOT_FILES)
+def test_a_link_to_what_is_no_file(tmp_path, kind):
+    run = linked(run_of(tmp_path / "run"))
+    (run / "fields/t0000.h5").unlink()
+    kind(run / "fields/t0000.h5")
+    with pytest.raises(granvof.NotARun):
+        granvof.load(run)
+    with pytest.raises(results.Damaged):
+        instants_of(run)
+
+
+
+def a_link(group, name, path):
+    group[name] = h5py.ExternalLink(path, "/x")
+
+
+def a_link_through_another_group(group, name, path):
+    group["between"] = h5py.ExternalLink(path, "/x")
+    group[name] = h5py.SoftLink("between/x")
+
+
+def values_beside(group, name, path):
+    group.create_dataset(name, (2, 3, 4), "f8", external=[(path, 0, h5py.h5f.UNLIMITED)])
+
+
+def virtual(group, name, path):
+    layout = h5py.VirtualLayout((2, 3, 4), "f8")
+    layout[:] = h5py.VirtualSource(path, "x", (2, 3, 4))
+    group.create_virtual_dataset(name, layout)
+
+
+@pytest.mark.parametrize("make", [a_link, a_link_through_another_group, values_beside, virtual])
+def test_values_that_lie_elsewhere(tmp_path, make):
+    os.mkfifo(tmp_path / "pipe")
+    run = run_of(tmp_path / "run")
+    with h5py.File(run / "fields.h5", "a") as file:
+        del file["t0000/f_s"]
+        make(file["t0000"], "f_s", str(tmp_path / "pipe"))
+    with pytest.raises(granvof.NotARun):
+        granvof.load(run)
+    with pytest.raises(results.Damaged):
+        instants_of(run)
+
+
+def test_a_link_out_of_the_folder(tmp_path):
+    run = run_of(tmp_path / "run")
+    write_fields(run / "fields.h5", lambda file: file.__setitem__("t0000", h5py.ExternalLink("../run/fields.h5", "/instant")))
+    with pytest.raises(granvof.NotARun, match="links to"):
+        granvof.load(run)
+
+
+def test_a_file_is_one_through_a_link_too(tmp_path):
+    (tmp_path / "a").write_text("x")
+    (tmp_path / "b").symlink_to("a")
+    assert granvof_files.required(tmp_path / "b").read_text() == "x"

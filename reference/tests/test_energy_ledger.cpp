@@ -1,0 +1,240 @@
+// The energy ledger of a coupled run: each term against what it must be, and all of them together.
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reference/demvof/coupling/energy_ledger.hpp"
+#include "reference/demvof/preparation/disperse.hpp"
+#include "reference/demvof/program/record_scene.hpp"
+#include "reference/tests/coupled_tank.hpp"
+#include "reference/tests/small_case.hpp"
+#include "solver/output/series_file.hpp"
+#include "solver/tests/temporary_directory.hpp"
+
+namespace {
+
+using demvof::BeadEngine;
+using demvof::BeadSettings;
+using demvof::BeadState;
+using demvof::CoupledRun;
+using demvof::EnergyLedger;
+using demvof::EnergyTerms;
+using demvof::FluidSide;
+using demvof::test::start;
+using demvof::test::tank;
+using demvof::test::TankSetup;
+
+constexpr double d = 1e-3;
+
+// A box of beads without fluid.
+BeadSettings box() {
+  BeadSettings s;
+  s.tank = {0.012, 0.012, 0.006};
+  s.diameter = d;
+  s.density = 2500.0;
+  s.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
+  return s;
+}
+
+double kinetic(const BeadEngine& engine) {
+  return engine.translation_energy() + engine.spin_energy();
+}
+
+// Two beads in a row along x, `gap` between their surfaces, without gravity.
+std::unique_ptr<BeadEngine> pair_of_beads(BeadSettings s, double gap, double speed) {
+  s.gravity = 0.0;
+  BeadState beads;
+  const double half = 0.5 * (d + gap);
+  beads.position = {0.006 - half, 0.006, 0.003, 0.006 + half, 0.006, 0.003};
+  beads.velocity = {speed, 0.0, 0.0, -speed, 0.0, 0.0};
+  return std::make_unique<BeadEngine>(s, beads, std::vector<double>{});
+}
+
+std::vector<double> dispersed(std::size_t count, const demvof::Vector& upper) {
+  std::mt19937 random(1);
+  return demvof::disperse_beads(count, {0, 0, 0}, upper, true, d, random);
+}
+
+}  // namespace
+
+// Beads rain on a floor, on each other and against a plate that then rises, under a load that changes: the
+// works of all forces make the change of kinetic energy, to rounding.
+TEST(WorkMeter, WorksOfAllForcesMakeTheChangeOfKineticEnergy) {
+  BeadSettings s = box();
+  s.gate = 0.0097;
+  s.gate_height = 0.011;
+  BeadState beads;
+  beads.position = dispersed(200, {0.0095, 0.01, 0.006});
+  for (std::size_t b = 0; b < 200; ++b)
+    beads.velocity.insert(beads.velocity.end(), {0.3, -0.2, 0.0});  // at the plate
+  BeadEngine engine(s, beads, {0.011, 0.0, 0.003});
+  demvof::FluidLoad load;
+  load.resize(200);
+  const double thrown = kinetic(engine);
+  for (int n = 0; n < 40; ++n) {
+    for (std::size_t b = 0; b < 200; ++b) {
+      load.coefficient[b] = engine.bead_mass() / 0.05;
+      load.velocity[3 * b] = 0.1 * std::cos(0.3 * n);
+      load.force[3 * b] = 3.0 * engine.bead_mass() * std::sin(0.2 * n + static_cast<double>(b));
+    }
+    engine.set_load(load);
+    if (n == 15) engine.raise_gate(0.1);
+    if (n == 35) engine.remove_gate();
+    if (n == 20) engine.set_gravity(-2.0, 10.0);
+    engine.run(25);
+  }
+  const demvof::BeadWork& work = engine.work();
+  for (const double part : {work.gravity, work.drag, work.force, work.contacts, work.walls, work.gate})
+    EXPECT_GT(std::abs(part), 1e-4 * thrown);
+  EXPECT_GT(engine.spin_energy(), 1e-3 * engine.translation_energy());
+  EXPECT_NEAR(kinetic(engine) - thrown, work.total(), 1e-9 * thrown);
+}
+
+// Contacts take (1 - e^2) of the energy of two beads that meet.
+TEST(WorkMeter, ContactsTakeWhatRestitutionSays) {
+  for (const double e : {0.9, 0.5}) {
+    BeadSettings s = box();
+    s.law.restitution = e;
+    s.dt = 1e-6;
+    const auto engine = pair_of_beads(s, 1e-5, 0.1);
+    const double before = kinetic(*engine);
+    engine->run(2000);
+    EXPECT_GT(engine->state().velocity[3], 0.0);  // they have parted
+    EXPECT_NEAR(-engine->work().contacts, (1.0 - e * e) * before, 0.01 * before) << e;
+    EXPECT_EQ(engine->elastic_energy().beads, 0.0);
+  }
+}
+
+// What a contact holds is what it gives back where nothing is lost.
+TEST(ElasticEnergy, IsWhatBeadsPressedTogetherFlyApartWith) {
+  BeadSettings s = box();
+  s.law.restitution = 1.0;
+  s.dt = 1e-6;
+  const auto engine = pair_of_beads(s, -5e-3 * d, 0.0);
+  const double stored = engine->elastic_energy().beads;
+  EXPECT_GT(stored, 0.0);
+  engine->run(2000);
+  EXPECT_EQ(engine->elastic_energy().beads, 0.0);
+  EXPECT_NEAR(kinetic(*engine), stored, 0.01 * stored);
+}
+
+TEST(ElasticEnergy, KnowsPlanesPlateAndImages) {
+  const BeadSettings s = [] {
+    BeadSettings settings = box();
+    settings.gate = 0.005;
+    return settings;
+  }();
+  const double overlap = 0.01 * d, modulus = s.law.young / (2.0 * (1.0 - 0.09));
+  const double beads = 8.0 / 15.0 * modulus * std::sqrt(0.25 * d) * std::pow(overlap, 2.5),
+               wall = beads * std::sqrt(2.0);
+  const auto of = [&](const std::vector<double>& mobile, const std::vector<double>& frozen,
+                      std::optional<double> edge) { return demvof::elastic_energy(s, mobile, frozen, edge); };
+  // Across the periodic depth, with one that is frozen, and not between two frozen ones.
+  EXPECT_NEAR(of({0.003, 0.006, 0.0}, {0.003, 0.006, 0.006 - d + overlap}, {}).beads, beads, 1e-6 * beads);
+  EXPECT_EQ(of({}, {0.003, 0.006, 0.001, 0.003, 0.006, 0.001 + d - overlap}, {}).beads, 0.0);
+  const std::vector<double> on_floor{0.008, 0.5 * d - overlap, 0.003},
+      at_plate{0.005 + 0.5 * d - overlap, 0.006, 0.003};
+  EXPECT_NEAR(of(on_floor, {}, {}).walls, wall, 1e-6 * wall);
+  EXPECT_NEAR(of(at_plate, {}, 0.0).walls, wall, 1e-6 * wall);
+  EXPECT_EQ(of(at_plate, {}, 0.007).walls, 0.0);  // the plate has passed it
+  EXPECT_EQ(of(at_plate, {}, {}).walls, 0.0);
+}
+
+// At its terminal speed a bead loses by drag all that its submerged weight gives.
+TEST(EnergyLedger, ALoneBeadLosesItsSubmergedWeightToDrag) {
+  const TankSetup s = tank(8, 12, 0.01, 0.02, FluidSide::open);
+  CoupledRun run = start(s, {0.04, 0.11, 0.01});
+  for (int n = 0; n < 500; ++n) run.step(2e-4);
+  EnergyLedger ledger(run);
+  const double from = run.beads().state().position[1];
+  for (int n = 0; n < 1000; ++n) run.step(2e-4);
+  const double fallen = from - run.beads().state().position[1];
+  const double given = run.beads().bead_volume() * 1500.0 * 9.81 * fallen;
+  const EnergyTerms terms = ledger.terms();
+  EXPECT_GT(fallen, 0.01);
+  EXPECT_NEAR(terms.drag, given, 0.05 * given);
+  EXPECT_NEAR(terms.drag_mean, terms.drag, 0.01 * given);  // alone it is its own mean
+  EXPECT_EQ(terms.contacts, 0.0);
+  EXPECT_NEAR(terms.walls, 0.0, 1e-12 * given);  // by difference, in which rounding remains
+  EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);
+}
+
+// A bed falling through water: potential energy goes into drag, and the budget closes.
+TEST(EnergyLedger, AFallingBedLosesItsEnergyToDrag) {
+  const TankSetup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::slip);
+  std::mt19937 random(2);
+  const double volume = std::numbers::pi / 6.0 * std::pow(s.beads.diameter, 3);
+  const auto count = static_cast<std::size_t>(0.4 * 0.01 * 0.03 * 4e-3 / volume);
+  const auto position =
+      demvof::disperse_beads(count, {0, 0.02, 0}, {0.01, 0.05, 4e-3}, true, s.beads.diameter, random);
+  CoupledRun run = start(s, position, 1e-4);
+  EnergyLedger ledger(run);
+  const double before = ledger.terms().potential;
+  for (int n = 0; n < 1500; ++n) run.step(1e-4);
+  const EnergyTerms terms = ledger.terms();
+  const double given = before - terms.potential;
+  EXPECT_GT(given, 0.0);
+  EXPECT_GT(terms.drag, 0.6 * given);
+  EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);
+}
+
+namespace {
+
+// Terms of the last row of a small case, and the potential energy that it gave.
+struct Budget {
+  granvof::Series series;
+  double given = 0.0;
+  double last(const std::string& name) const { return *series.column(name).back(); }
+};
+
+Budget budget(std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(), {"time.end=0.2", "output.series_interval=0.02"});
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options;
+  options.out = directory.path() / "run";
+  options.scratch = directory.path() / "scratch";
+  options.command = "test";
+  EXPECT_EQ(demvof::record_scene(demvof::test::small(overrides), options), 0);
+  Budget b{granvof::read_series(options.out / "series.csv")};
+  b.given = *b.series.column("energy_potential").front() - b.last("energy_potential");
+  return b;
+}
+
+}  // namespace
+
+// In air nearly all goes into contacts; nothing into pressure or liquid.
+TEST(EnergyLedger, ADryColumnLosesItsEnergyInContacts) {
+  const Budget dry = budget({"liquid=false"});
+  EXPECT_GT(dry.given, 0.0);
+  EXPECT_NEAR(dry.last("energy_residual"), 0.0, 0.01 * dry.given);
+  EXPECT_NEAR(dry.last("lost_contacts") + dry.last("lost_walls") + dry.last("energy_kinetic") +
+                  dry.last("energy_granular") + dry.last("energy_spin"),
+              dry.given, 0.05 * dry.given);
+  EXPECT_GT(dry.last("lost_contacts"), 0.5 * dry.given);
+  EXPECT_EQ(dry.last("gained_gate"), 0.0);
+}
+
+// Under water: every term at once, in each row.
+TEST(EnergyLedger, AColumnInWaterAccountsForItsEnergy) {
+  const Budget wet = budget({});
+  EXPECT_GT(wet.given, 0.0);
+  for (const auto& residual : wet.series.column("energy_residual"))
+    EXPECT_NEAR(*residual, 0.0, 0.01 * wet.given);
+  EXPECT_GT(wet.last("lost_drag"), 0.1 * wet.given);
+  EXPECT_GT(wet.last("lost_contacts"), 0.1 * wet.given);
+  // Beads that rub past each other have drag on their agitation too.
+  EXPECT_GT(wet.last("part_drag_mean"), 0.1 * wet.last("lost_drag"));
+  EXPECT_LT(wet.last("part_drag_mean"), 0.95 * wet.last("lost_drag"));
+  // Columns are for the tank's depth, as every energy of the series.
+  const double beads_alone = *wet.series.column("potential_energy_solid").front() +
+                             *wet.series.column("potential_energy_liquid").front() +
+                             *wet.series.column("potential_energy_gas").front();
+  EXPECT_NEAR(*wet.series.column("energy_potential").front(), beads_alone, 0.01 * beads_alone);
+}

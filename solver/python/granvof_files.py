@@ -1,0 +1,65 @@
+"""Opens what a run has left behind, or what others give: only what is a file. Opening a pipe waits for its other end, and a
+device may have no end."""
+
+import contextlib
+import os
+import stat
+from pathlib import Path
+
+
+class NotAFile(OSError):
+    """A name that is no regular file, or an HDF5 file that leads to one; says which, and what it is."""
+
+
+KINDS = ((stat.S_ISDIR, "a directory"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"), (stat.S_ISCHR, "a device"),
+         (stat.S_ISBLK, "a device"))
+
+
+def required(path):
+    """The path, as it was given. NotAFile where something else than a regular file has that name; where nothing has it,
+    FileNotFoundError or what else the system says."""
+    mode = os.stat(path).st_mode
+    for of_kind, name in KINDS:
+        if of_kind(mode):
+            raise NotAFile(f"it is {name}, not a file")
+    return path
+
+
+def is_there(path):
+    """Whether something has that name, be it a link to nothing: what is there must be read or refused, not left out."""
+    return os.path.lexists(path)
+
+
+@contextlib.contextmanager
+def fields_of(path):
+    """An HDF5 file, open for reading, of which nothing leads elsewhere but groups that are the file of an instant beside it
+    (fields/tNNNN.h5). NotAFile where something does; OSError, KeyError, RuntimeError where it is damaged."""
+    import h5py  # here: not every reader of files has it
+
+    path = Path(path)
+    with h5py.File(required(path), "r") as file:
+        for name in file:
+            link = file.get(name, getlink=True)
+            if isinstance(link, h5py.ExternalLink):
+                if link.filename != f"fields/{name}.h5":
+                    raise NotAFile(f"{name} links to {link.filename}, allowed: fields/{name}.h5")
+                with h5py.File(required(path.parent / link.filename), "r") as piece:
+                    _require_inside(piece, h5py)
+            else:
+                _require_member_inside(file, name, h5py)
+        yield file
+
+
+def _require_inside(group, h5py):
+    for name in group:
+        _require_member_inside(group, name, h5py)
+
+
+def _require_member_inside(group, name, h5py):
+    if isinstance(group.get(name, getlink=True), h5py.ExternalLink):
+        raise NotAFile(f"{name} lies in another file")
+    member = group[name]
+    if isinstance(member, h5py.Group):
+        _require_inside(member, h5py)
+    elif isinstance(member, h5py.Dataset) and (member.is_virtual or member.external):
+        raise NotAFile(f"the values of {name} lie in another file")

@@ -1,0 +1,83 @@
+// The time loop: accepted steps of a scene, one after another. What a run does beside (output, alarms, ends)
+// are observers; a test takes steps and measures between them.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "solver/output/run_record.hpp"
+#include "solver/run/checkpoint_state.hpp"
+#include "solver/run/monitors.hpp"
+#include "solver/run/step_control.hpp"
+#include "solver/run/time_step.hpp"
+
+namespace granvof {
+
+class TimeLoop {
+ public:
+  // How a run ends, and whether the last step is no part of what is kept.
+  struct Ending {
+    RunExit exit;
+    bool undo_last_step = false;
+  };
+  // Looks at the loop after an accepted step; what it returns ends the loop.
+  using Observer = std::function<std::optional<Ending>()>;
+
+  // At the start of the scene, which must outlive this.
+  explicit TimeLoop(const Scene& scene);
+  TimeLoop(const TimeLoop&) = delete;
+  TimeLoop& operator=(const TimeLoop&) = delete;
+  TimeLoop(TimeLoop&&) = delete;
+  TimeLoop& operator=(TimeLoop&&) = delete;
+  ~TimeLoop() = default;
+
+  // At a checkpoint of the same scene. Throws OutputError where it lacks something.
+  void restore(const Checkpoint& saved);
+
+  // Steps until an observer ends them, or none is accepted. Observers are asked in their order, those after
+  // one that ends the loop are not.
+  Ending run(std::span<const Observer> observers);
+  // One accepted step of at most `longest` [s], tried shorter where it is refused; `extra`: sources of a
+  // manufactured solution. Returns why none was accepted above dt_min: the state is the one before then.
+  std::optional<RunExit> advance(double longest = std::numeric_limits<double>::infinity(),
+                                 const BodyAcceleration* extra = nullptr);
+  // To the state before the last step, which is forgotten; once after each.
+  void step_back();
+
+  const Grid& grid() const { return grid_; }
+  const Boundary& boundary() const { return boundary_; }
+  // May be changed between steps; fill its ghosts then.
+  State& now() { return now_; }
+  const State& now() const { return now_; }
+  const State& before() const { return next_; }           // the state before the last step
+  const StepReport& last_step() const { return last_; }   // accepted or not
+  double last_dt() const { return control_.last(); }      // of the last accepted step [s]
+  double next_dt() const { return control_.next(now_); }  // that the next step is tried with [s]
+  const Monitors& monitors() const { return monitors_; }
+  const RunCounters& counters() const { return counters_; }
+  std::map<std::string, double> cost() const { return step_.cost().seconds(); }
+  // Into the state as it is; it must outlive the view.
+  CheckpointView checkpoint(const RunProgress& progress) const;
+
+ private:
+  const Scene& scene_;
+  SerialCommunicator communicator_;
+  Grid grid_;
+  Boundary boundary_;
+  TimeStep step_;
+  StepControl control_;
+  State now_, next_;  // after a step next_ holds the state before it
+  Monitors monitors_;
+  RunCounters counters_;
+  struct Marks {
+    RunCounters counters;
+    Monitors::Values monitors{};
+    double dt = 0.0;
+  } before_;  // those of the state before the last step
+  StepReport last_;
+};
+
+}  // namespace granvof
