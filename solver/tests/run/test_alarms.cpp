@@ -56,10 +56,11 @@ TEST_F(RunAlarms, ASoundRunRaisesNone) {
   EXPECT_EQ(record_of({"numerics.solid_flux=limited"})["warnings"], json::array());
 }
 
-// A loose tolerance: continuity is not solved.
-TEST_F(RunAlarms, LooseToleranceIsSeenInTheEnergyResidual) {
-  EXPECT_TRUE(warned(record_of({"numerics.volume_tolerance=1e-2", "numerics.linear_tolerance=0.5"}),
-                     "energy residual"));
+// However loose the tolerance, no guess of the pressure passes for a solution: continuity is solved well
+// enough for the budget. (That a residual beyond its limit is seen: AlarmRules.)
+TEST_F(RunAlarms, ALooseToleranceLeavesTheBudgetClosed) {
+  EXPECT_FALSE(warned(record_of({"numerics.volume_tolerance=1e-2", "numerics.linear_tolerance=0.5"}),
+                      "energy residual"));
 }
 
 TEST_F(RunAlarms, LiquidThatIsLostIsSeenInTheLiquidVolume) {
