@@ -56,6 +56,13 @@ TEST_F(RunAlarms, ASoundRunRaisesNone) {
   EXPECT_EQ(record_of({"numerics.solid_flux=limited"})["warnings"], json::array());
 }
 
+// A dry bed on a slope it rests on, whose potential energy counts from above it.
+TEST_F(RunAlarms, ADryBedInAnInclinedTankIsNoBlowUp) {
+  const json record = record_of({"tank.inclination=12", "liquid=false", "gate=false", "bed.length=0.16"});
+  EXPECT_EQ(record["exit"]["state"], "finished");
+  EXPECT_EQ(record["warnings"], json::array());
+}
+
 // However loose the tolerance, no guess of the pressure passes for a solution: continuity is solved well
 // enough for the budget. (That a residual beyond its limit is seen: AlarmRules.)
 TEST_F(RunAlarms, ALooseToleranceLeavesTheBudgetClosed) {
