@@ -47,4 +47,8 @@ def write(loaded, options):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except OSError as cause:  # a full disk, above all
+        complain(f"report: it cannot be written: {cause}")
+        sys.exit(1)
