@@ -12,7 +12,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +20,7 @@ import h5py
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "solver/python"))
 
-from granvof_files import fields_of, is_there, required  # noqa: E402
+from granvof_files import fields_of, is_there, json_of, required, toml_of, write_whole  # noqa: E402
 
 RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
@@ -114,7 +113,7 @@ def is_sealed(text):
 
 def read_plan(path=ROOT / "reference/plan.toml"):
     try:
-        runs = [Run(**entry) for entry in tomllib.loads(required(path).read_text(encoding="utf-8"))["run"]]
+        runs = [Run(**entry) for entry in toml_of(path)["run"]]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise RecordError(f"{path} is no plan: {one_line(error)}") from error
     if not runs:
@@ -176,7 +175,7 @@ def run_of(directory, plan=()):
 def state(run, case_hash, results=RESULTS):
     """'current', 'stale' or 'missing'."""
     try:
-        record = json.loads(required(run.folder(results) / "record.json").read_text())
+        record = json_of(run.folder(results) / "record.json")
     except FileNotFoundError:
         return "missing"
     except (OSError, ValueError):
@@ -277,10 +276,8 @@ def require_files(folder, facts):
             raise RecordError(f"{folder / name} is not the file that was written")
 
 
-def write_json(path, facts):
-    draft = path.with_name(path.name + ".part")
-    draft.write_text(sealed(facts), encoding="utf-8")
-    draft.replace(path)
+def write_sealed(path, facts):
+    write_whole(path, sealed(facts))
 
 
 def state_files(folder):
@@ -293,7 +290,7 @@ def state_files(folder):
     if "files" not in facts:
         facts["files"] = stated_files(folder)
         facts["files_stated"] = "afterwards, from the files as they were in the repository"
-    write_json(path, facts)
+    write_sealed(path, facts)
     return True
 
 
@@ -313,7 +310,7 @@ def slim_record(folder):
         else:
             draft.unlink()
     if smaller:
-        write_json(folder / "record.json", facts | {"files": stated_files(folder)})
+        write_sealed(folder / "record.json", facts | {"files": stated_files(folder)})
     return smaller
 
 
@@ -339,7 +336,7 @@ def make_record(run, run_directory, case_hash, results=RESULTS):
     if not run.chute:
         slim_fields(run_directory / "fields.h5", draft / "fields.h5")
     facts["files"] = stated_files(draft)
-    write_json(draft / "record.json", facts)
+    write_sealed(draft / "record.json", facts)
     shutil.rmtree(folder, ignore_errors=True)
     draft.rename(folder)
     return folder

@@ -18,6 +18,14 @@ class TableError(Exception):
     """What is wrong with the table, in one line."""
 
 
+def listed(entry, key, known):
+    """Name and meaning of all that an entry of the table lists under a key; TableError for a name that is not known."""
+    for name in entry[key]:
+        if name not in known:
+            raise TableError(f"{key}: '{name}' given; known: {', '.join(known)}")
+        yield name, known[name]
+
+
 class NotTried(Exception):
     """Why a kind cannot be tried on this machine, in one line."""
 

@@ -5,7 +5,7 @@ import re
 import shutil
 import stat
 
-from faults_tried.bench import TableError
+from faults_tried.bench import listed
 
 
 def empty(path, chance):
@@ -122,7 +122,4 @@ def copy_of(source, target):
 
 def of_entry(entry):
     """Name and way of every damage that an entry of the table lists."""
-    for name in entry["damages"]:
-        if name not in BY_NAME:
-            raise TableError(f"damages: '{name}' given; known: {', '.join(BY_NAME)}")
-        yield name, BY_NAME[name]
+    return listed(entry, "damages", BY_NAME)

@@ -6,7 +6,7 @@ import shutil
 import signal
 import time
 
-from faults_tried.bench import TableError, refused
+from faults_tried.bench import TableError, listed, refused
 from faults_tried.runs import SmallRun, crashed, not_refused, stopped_once, tree_of
 
 LONG_NAME = 3000  # letters
@@ -204,11 +204,9 @@ TRIES = {way.__name__: way for way in (
 def hostile(bench, entry):
     """Odd places, names and moments: the run is as any other, or it is refused and says why."""
     run = SmallRun(bench, entry)
-    for name in bench.some(entry["tries"], entry["sample"]):
-        if name not in TRIES:
-            raise TableError(f"tries: '{name}' given; known: {', '.join(sorted(TRIES))}")
+    for name, attempt in bench.some(listed(entry, "tries", TRIES), entry["sample"]):
         place = bench.place()
-        yield name.replace("_", " "), TRIES[name](bench, run, place)
+        yield name.replace("_", " "), attempt(bench, run, place)
         bench.drop(place / "any")
 
 

@@ -5,7 +5,7 @@ import resource
 import shutil
 import signal
 
-from faults_tried.bench import NotTried, TableError, refused
+from faults_tried.bench import NotTried, listed, refused
 from faults_tried.runs import SmallRun, crashed, not_refused, stopped_once, tree_of
 
 NOBODY = 65534
@@ -129,11 +129,9 @@ TRIES = {
 def surroundings(bench, entry):
     """Odd surroundings: the same files, or an error that is said."""
     run = SmallRun(bench, entry)
-    for name in bench.some(entry["tries"], entry["sample"]):
-        if name not in TRIES:
-            raise TableError(f"tries: '{name}' given; known: {', '.join(sorted(TRIES))}")
+    for name, attempt in bench.some(listed(entry, "tries", TRIES), entry["sample"]):
         place = bench.place()
-        yield name, TRIES[name](bench, run, place)
+        yield name, attempt(bench, run, place)
         shutil.rmtree(place, ignore_errors=True)
 
 

@@ -1,8 +1,9 @@
 """What was tried and held, as a section of the report (compare/report/sections.py)."""
 
 import datetime
-import json
 import subprocess
+
+from granvof_files import write_json
 
 LONGEST_LIST = 200  # tries that were not held, in the report
 
@@ -25,7 +26,4 @@ def section(counts, missed, commit, sample, to_come):
 
 def write(directory, root, counts, missed, sample, to_come):
     commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=root, capture_output=True, text=True).stdout.strip()
-    directory.mkdir(parents=True, exist_ok=True)
-    draft = directory / "faults.json.tmp"
-    draft.write_text(json.dumps(section(counts, missed, commit, sample, to_come), indent=1) + "\n", encoding="utf-8")
-    draft.rename(directory / "faults.json")
+    write_json(directory / "faults.json", section(counts, missed, commit, sample, to_come))

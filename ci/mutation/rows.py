@@ -1,11 +1,11 @@
 """The rows of `make verify` against a fault: runs made again with it, cheapest first, until a row changes its verdict."""
 
-import json
 import os
 import shutil
 import subprocess
 import time
 
+from granvof_files import json_of, write_json
 from mutation import process
 
 DEAREST, ALL = 4.0, 60.0  # core-seconds of a run, and of all that are tried, by the kept costs
@@ -25,7 +25,7 @@ class Rows:
         """(id, case, overrides) of the runs, cheapest first."""
         said = subprocess.run([self.compare, "plan", "--frequency", "verify"], cwd=self.tree, check=True,
                               stdout=subprocess.PIPE, text=True).stdout
-        kept = json.loads((self.tree / "compare/kept/verify/results.json").read_text(encoding="utf-8"))["costs"]
+        kept = json_of(self.tree / "compare/kept/verify/results.json")["costs"]
         planned = [(fields[0], fields[1], fields[2:]) for fields in (line.split("\t") for line in said.splitlines())]
         cost = {run[0]: kept[run[0]]["core_seconds"] for run in planned if run[0] in kept}
         chosen, spent = [], 0.0
@@ -50,7 +50,7 @@ class Rows:
                             self.scratch, environment)
         if ended.code not in (0, 1):
             return None
-        rows = json.loads((out / "results.json").read_text(encoding="utf-8"))["results"]
+        rows = json_of(out / "results.json")["results"]
         return {row["id"]: row["verdict"] for row in rows}
 
     def traced(self, make):
@@ -67,7 +67,7 @@ class Rows:
         self.runs = self.plan()
         base = self.work / "runs"
         if kept.exists():
-            before = json.loads(kept.read_text(encoding="utf-8"))
+            before = json_of(kept)
             if before["stamp"] == stamp:
                 self.reached = {name: set(numbers) for name, numbers in before["reached"].items()}
                 self.seconds, self.base = before["seconds"], before["verdicts"]
@@ -86,8 +86,8 @@ class Rows:
         self.seconds["check"] = round(time.monotonic() - begun, 2)
         if self.base is None:
             return "the rows cannot be judged without a fault"
-        kept.write_text(json.dumps({"stamp": stamp, "reached": {name: sorted(numbers) for name, numbers in self.reached.items()},
-                                    "seconds": self.seconds, "verdicts": self.base}), encoding="utf-8")
+        write_json(kept, {"stamp": stamp, "reached": {name: sorted(numbers) for name, numbers in self.reached.items()},
+                          "seconds": self.seconds, "verdicts": self.base})
         return ""
 
     def judge(self, mutant):

@@ -6,6 +6,7 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from granvof_files import json_of, write_json
 from mutation import process
 
 LADDERS = {"unit": "unit", "verification": "ladder"}  # label of a test -> whom it belongs to
@@ -54,7 +55,7 @@ def without_fault(tests, build, scratch, kept, say):
     Names of those that fail without any fault."""
     before = {}
     if kept.exists():
-        before = {(entry["name"], entry["stamp"]): entry for entry in json.loads(kept.read_text(encoding="utf-8"))}
+        before = {(entry["name"], entry["stamp"]): entry for entry in json_of(kept)}
     notes, failed = [], []
     for index, test in enumerate(tests):
         stamp = Path(test.program).stat().st_mtime_ns
@@ -74,7 +75,7 @@ def without_fault(tests, build, scratch, kept, say):
         if entry["ended"] != 0:
             failed.append(test.name)
         if index % 50 == 49 or index + 1 == len(tests):
-            kept.write_text(json.dumps(notes + [entry for key, entry in before.items() if entry not in notes]), encoding="utf-8")
+            write_json(kept, notes + [entry for key, entry in before.items() if entry not in notes])
     return failed
 
 

@@ -1,8 +1,9 @@
 """What was noticed by whom: the kept results, and a section of the report made of them (compare/report/sections.py)."""
 
 import datetime
-import json
 import subprocess
+
+from granvof_files import json_of, write_json
 
 COLUMNS = {"unit": "unit tests", "ladder": "verification ladder", "rows": "rows of make verify"}
 LONGEST_LIST = 100  # survivors in the report
@@ -12,18 +13,11 @@ def read(path):
     """{number of a fault: entry}; nothing where there is no such file."""
     if not path.exists():
         return {}
-    return {entry["number"]: entry for entry in json.loads(path.read_text(encoding="utf-8"))["mutants"]}
+    return {entry["number"]: entry for entry in json_of(path)["mutants"]}
 
 
 def write(path, entries):
     write_json(path, {"mutants": list(entries)})
-
-
-def write_json(path, content):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_suffix(".tmp")
-    draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-    draft.replace(path)
 
 
 def commit_of(root):

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
-from granvof_files import required
+from granvof_files import json_of
 from night.history import Cost, Metric
 
 
@@ -25,7 +24,7 @@ def read_verification(path: Path) -> tuple[list[Metric], list[Cost], list[str]]:
     if not path.exists():
         return [], [], []
     try:
-        return _verification(json.loads(required(path).read_text(encoding="utf-8")))
+        return _verification(json_of(path))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise _damaged(path, error) from error
 
@@ -58,7 +57,7 @@ def read_times(path: Path) -> list[Cost]:
     if not path.exists():
         return []
     try:
-        data = json.loads(required(path).read_text(encoding="utf-8"))
+        data = json_of(path)
         return [Cost(name, entry["unit"], float(entry["value"])) for name, entry in data.items()]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise _damaged(path, error) from error

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
 import subprocess
@@ -12,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable, Sequence
 
-from granvof_files import required
+from granvof_files import json_of, write_json
 from night.together import ends_with_parent
 
 GUARD = str(Path(__file__).resolve().parent / "guard.py")
@@ -55,19 +54,16 @@ class StageRun:
         """ValueError, one line, where its state is damaged."""
         path = directory / "state.json"
         try:
-            data = json.loads(required(path).read_text(encoding="utf-8"))
+            data = json_of(path)
             outcomes = {name: Outcome(**outcome) for name, outcome in data["outcomes"].items()}
             return cls(directory, data["facts"], outcomes, data["finished"])
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
             raise ValueError(f"{path} cannot be read ({' '.join(str(error).split())}); --fresh starts anew") from error
 
     def save(self) -> None:
-        self.directory.mkdir(parents=True, exist_ok=True)
         data = {"facts": self.facts, "finished": self.finished,
                 "outcomes": {name: vars(outcome) for name, outcome in self.outcomes.items()}}
-        partial = self.directory / "state.json.part"
-        partial.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-        partial.replace(self.directory / "state.json")
+        write_json(self.directory / "state.json", data)
 
 
 def _end_group(process: subprocess.Popen) -> None:

@@ -15,6 +15,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
+from granvof_files import write_whole  # noqa: E402
 from night.change import METRIC, noise  # noqa: E402
 from night.history import History, Point  # noqa: E402
 
@@ -72,8 +73,8 @@ def write_page(history: History, host: str, summary: str, path: Path) -> None:
         image = base64.b64encode(_figure(section)).decode()
         heading = html.escape(title)
         body.append(f'<h2>{heading}</h2><img alt="trends of {heading}" src="data:image/png;base64,{image}">')
-    path.write_text(
-        '<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+    write_whole(
+        path, '<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
         "<title>granvof nightly: trends</title><style>body{font:15px/1.4 sans-serif;max-width:72rem;margin:auto;"
         "padding:1rem}img{max-width:100%}pre{overflow-x:auto}</style>"
-        f"<h1>granvof nightly: trends</h1>{''.join(body)}</html>\n", encoding="utf-8")
+        f"<h1>granvof nightly: trends</h1>{''.join(body)}</html>\n")

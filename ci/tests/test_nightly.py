@@ -43,6 +43,7 @@ def repository(tmp_path):
     (root / "ci").mkdir(parents=True)
     (root / "compare/report").mkdir(parents=True)
     shutil.copytree(CI / "night", root / "ci/night", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(CI.parent / "solver/python", root / "solver/python", ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("nightly", "bless"):
         shutil.copy(CI / name, root / "ci" / name)
     scripts = {"ci/setup": "#!/bin/sh\n", "ci/build": "#!/bin/sh\nmkdir -p build\n", "ci/bench": "#!/bin/sh\n", "ci/mutate": "#!/bin/sh\n",

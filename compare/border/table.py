@@ -1,10 +1,9 @@
 """Reads compare/stability.toml: scenes, methods, axes. Anything it does not know is an error that names it."""
 
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from granvof_files import required
+from granvof_files import toml_of
 
 
 class TableError(Exception):
@@ -99,7 +98,7 @@ def read_axis(entry, scenes, path):
 def read(path):
     """The table of a file; TableError, one line, for whatever is wrong with it."""
     try:
-        return read_data(tomllib.loads(required(path).read_text(encoding="utf-8")), path)
+        return read_data(toml_of(path), path)
     except (OSError, ValueError, TypeError, AttributeError) as error:  # a value of another kind than it is taken for
         raise TableError(f"{path}: {' '.join(str(error).split())}") from error
 

@@ -21,7 +21,8 @@ void write_account(const std::filesystem::path& file, const Ending& ending) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
   if (!out.valid()) throw OutputError("write", file, std::generic_category().message(errno));
-  ::flock(out.get(), LOCK_EX);  // tasks of a job array write the same; a file system without locks goes without
+  ::flock(out.get(),
+          LOCK_EX);  // tasks of a job array write the same; a file system without locks goes without
   std::string lines;
   if (::lseek(out.get(), 0, SEEK_END) == 0)
     lines = "date,run,kind,core_seconds [s],cpu_seconds [s],wall_seconds [s],memory [kB],beside [-],host\n";

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "ci"), str(ROOT / "solver/python")]
 
-from granvof_files import required  # noqa: E402
+from granvof_files import json_of  # noqa: E402
 from night.together import ends_with_parent  # noqa: E402
 
 FINISHED, BAD_INPUT, SIGNAL, CPU_LIMIT, TIME_LIMIT = "finished", "bad input", "signal", "CPU limit", "time limit"
@@ -45,7 +45,7 @@ class Ending:
 
     def record(self):
         """run.json; the run must have written one."""
-        return json.loads(required(Path(self.directory) / "run.json").read_text(encoding="utf-8"))
+        return json_of(Path(self.directory) / "run.json")
 
 
 class Engine:

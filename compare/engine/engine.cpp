@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds between_looks{20};
-
 // The ending of a run that was made before.
 Ending kept(Ending ending) {
   const Note note = read_note(ending.directory).value();

@@ -17,8 +17,7 @@ constexpr int exit_code_of_bad_input = 2;
 // The last line of the log, without the stamps before it.
 std::string last_words(const std::filesystem::path& log) {
   std::error_code unknown;
-  std::string text = std::filesystem::exists(log, unknown) ? read_file(log) : "";
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::string text = std::filesystem::exists(log, unknown) ? without_end(read_file(log)) : "";
   const auto begin = text.find_last_of('\n');
   if (begin != std::string::npos) text.erase(0, begin + 1);
   static const std::regex stamps(R"(^(\[[^\]]*\] *)+)");
@@ -72,7 +71,7 @@ void note_how_it_ended(Ending& ending, const Ended& process, const Limits& limit
     return fail(ending::cpu_limit, fmt::format("not done after {:g} core-s", limits.cpu_seconds));
   if (somebody_ended(process.code)) return fail(ending::signal, with_code());
   const auto facts = facts_of_this_run(ending.directory, earlier);
-  if (!facts || facts->kind == "running")
+  if (!facts || facts->kind == ending::running)
     return fail(ending::crashed, process.code == 0 ? "it ended and left no run.json" : with_code());
   if (facts->kind != ending::finished)
     return fail(facts->kind, facts->reason.empty() ? with_code() : facts->reason);

@@ -1,8 +1,5 @@
 #include "compare/engine/made.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <exception>
 
 #include <fmt/format.h>
@@ -10,6 +7,8 @@
 
 #include "compare/input/run.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/run_record.hpp"
+#include "solver/scene/fnv1a.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -17,13 +16,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* note_file = "made.json";
-constexpr std::array cut_short{"running", "signal", "CPU limit", "wall-clock limit"};
-// The same again would end so again.
-constexpr std::array for_good{"finished", "step collapse", "not finite", "alarm", "error"};
+bool is_cut_short(std::string_view kind) {
+  return kind == ending::running || kind == ending::signal || kind == ending::cpu_limit ||
+         kind == name_of(ExitKind::wall_clock_limit);
+}
 
-template <typename Names>
-bool is_one_of(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+// The same again would end so again.
+bool is_for_good(std::string_view kind) {
+  return kind == ending::finished || kind == name_of(ExitKind::step_collapse) ||
+         kind == name_of(ExitKind::not_finite) || kind == name_of(ExitKind::alarm) ||
+         kind == name_of(ExitKind::error);
 }
 
 std::optional<RunFacts> facts_in(const fs::path& directory) {
@@ -38,12 +40,7 @@ std::optional<RunFacts> facts_in(const fs::path& directory) {
 }  // namespace
 
 std::string short_hash(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ULL;
-  }
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", fnv1a(text));
 }
 
 std::optional<Note> read_note(const fs::path& directory) {
@@ -83,7 +80,7 @@ bool is_made(const fs::path& directory, const std::string& program, const std::s
   const auto as_long = [](double then, double now) { return then > 0.0 && now > 0.0 && now <= then; };
   if (note->kind == ending::time_limit) return as_long(note->limits.wall_seconds, limits.wall_seconds);
   if (note->kind == ending::cpu_limit) return as_long(note->limits.cpu_seconds, limits.cpu_seconds);
-  if (note->kind != ending::finished) return is_one_of(for_good, note->kind);
+  if (note->kind != ending::finished) return is_for_good(note->kind);
   const auto facts = facts_in(directory);
   return facts && facts->kind == ending::finished;
 }
@@ -91,7 +88,7 @@ bool is_made(const fs::path& directory, const std::string& program, const std::s
 bool can_be_gone_on_with(const fs::path& directory, const std::string& program,
                          const std::string& resolved_case) {
   const auto facts = facts_in(directory);
-  if (!facts || facts->resolved_case != resolved_case || !is_one_of(cut_short, facts->kind)) return false;
+  if (!facts || facts->resolved_case != resolved_case || !is_cut_short(facts->kind)) return false;
   const std::string version = fmt::format("granvof {} ({})", facts->version, facts->commit);
   return version == program && fs::exists(directory / "checkpoint.h5");
 }

@@ -31,6 +31,7 @@ inline constexpr double cheap_run = 2.0;  // [core-s]: the cost of a second is m
 // Kinds of an ending: those of `exit.kind` in run.json (solver/output/run_record.hpp), and what the run
 // itself cannot tell.
 namespace ending {
+inline constexpr std::string_view running = "running";  // it goes on, or could not say how it ended
 inline constexpr std::string_view finished = "finished";
 inline constexpr std::string_view signal = "signal";          // somebody stopped it
 inline constexpr std::string_view time_limit = "time limit";  // killed after Limits::wall_seconds

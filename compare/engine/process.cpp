@@ -25,7 +25,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds between_looks{20};
 constexpr rlim_t grace = 5;  // CPU seconds from SIGXCPU, for the last checkpoint, to SIGKILL
 
 double seconds(const timeval& t) {
@@ -110,6 +109,11 @@ std::optional<Ended> Child::poll() {
                seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_maxrss};
 }
 
+std::string without_end(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
 Ended run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
                   const Limits& limits) {
   Child child(command, log, limits);
@@ -124,9 +128,7 @@ std::string version_of(const std::filesystem::path& program) {
   const std::string name = fmt::format("/proc/{}/fd/{}", getpid(), said.get());
   if (run_program({program.string(), "--version"}, name, {60.0, 0.0}).code != 0)
     throw std::runtime_error(fmt::format("{} --version failed", program.string()));
-  std::string text = read_file(name);
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  return text;
+  return without_end(read_file(name));
 }
 
 }  // namespace granvof::compare

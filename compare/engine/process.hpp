@@ -48,6 +48,11 @@ class Child {
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
+inline constexpr std::chrono::milliseconds between_looks{20};  // whether a program has ended
+
+// What a program said, without the blanks and ends of lines at its end.
+std::string without_end(std::string text);
+
 // Runs `command` and waits.
 Ended run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
                   const Limits& limits = {});

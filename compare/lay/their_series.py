@@ -12,7 +12,7 @@ import math
 import re
 from dataclasses import dataclass, field
 
-from granvof_files import required
+from granvof_files import required, write_whole
 
 # Unit -> the SI unit, and what to multiply by.
 UNITS = {
@@ -155,8 +155,9 @@ def ordered(path, rows, at):
 
 
 def write(understood, path):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows([understood.header, *understood.rows])
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([understood.header, *understood.rows])
+    write_whole(path, text.getvalue())
 
 
 def names_of_map(text):

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <optional>
@@ -24,8 +23,6 @@ namespace granvof::compare {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::chrono::milliseconds between_looks{20};
 
 // Lines of stdin as they come, so that whoever writes them may wait for endings in between.
 class Lines {

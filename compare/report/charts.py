@@ -9,7 +9,6 @@ run shows these, with their version and date. A chart that was not drawn stays a
 """
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
@@ -18,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 from complaint import complain, given_path  # noqa: E402
-from granvof_files import required  # noqa: E402
+from granvof_files import json_of, write_json  # noqa: E402
 from report import style  # noqa: E402
 from report.results import Damaged, read_json  # noqa: E402
 from report.style import plt  # noqa: E402
@@ -265,9 +264,7 @@ def write(content, options):
 def make_section(directory, content, ablated, advised):
     """Pictures and charts.json into `directory`; names of the pictures."""
     names = draw_all(content, directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    shown = section(content, names, ablations(ablated), advices(advised))
-    (directory / "charts.json").write_text(json.dumps(shown, indent=1) + "\n")
+    write_json(directory / "charts.json", section(content, names, ablations(ablated), advices(advised)))
     return names
 
 
@@ -278,10 +275,10 @@ def from_kept(kept, directory):
         return False
     make_section(directory, content, kept / "ablate", kept / "advise")
     path = directory / "charts.json"
-    shown = json.loads(required(path).read_text())
+    shown = json_of(path)
     shown["title"] += " (kept results)"
     shown["text"].insert(0, f"Not run here: results kept in the repository, {made(content)}. `make charts` runs them anew.")
-    path.write_text(json.dumps(shown, indent=1) + "\n")
+    write_json(path, shown)
     return True
 
 
@@ -305,18 +302,17 @@ def merged(content, kept):
 
 
 def write_kept(path, content):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(content, separators=(",", ":")) + "\n")
+    write_json(path, content, separators=(",", ":"))
 
 
 def keep(options, beside):
     write_kept(options.keep / "charts/points.json", merged(load(options.charts), load(options.keep / "charts")))
     for source, target in [(options.ablations or beside / "ablate", "ablate"), (options.advice or beside / "advise", "advise")]:
         for path in sorted(source.glob("**/*.json")):
-            write_kept(options.keep / target / path.relative_to(source), json.loads(required(path).read_text()))
+            write_kept(options.keep / target / path.relative_to(source), json_of(path))
     stability = beside / "stability/stability.json"
     if stability.exists():
-        write_kept(options.keep / "stability/stability.json", json.loads(required(stability).read_text()))
+        write_kept(options.keep / "stability/stability.json", json_of(stability))
 
 
 def shrink(source, target):

@@ -87,7 +87,8 @@ def draw_all(results, directory, kept=None):
     for plot in PLOTS:
         names += results.shown(lambda: plot(results, directory)) or []
     names += results.shown(lambda: stability.map_plot(stability.load(results.directory, kept), directory)) or []
-    pictured = [run for run in results.curves if run in on_its_own(results)]
+    judged = on_its_own(results)
+    pictured = [run for run in results.curves if run in judged]
     for run in pictured:
         names += results.shown(lambda: energy.energy_plot(results, run, directory)) or []
         names += results.shown(lambda: ledgers.ledger_plot(results, run, directory)) or []

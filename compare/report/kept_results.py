@@ -2,7 +2,7 @@
 
 import json
 
-from granvof_files import required
+from granvof_files import json_of, write_whole
 from report import results
 
 ROW = ("id", "scene", "metric", "value", "unit", "reference", "reference_kind", "reference_source", "tolerance", "verdict",
@@ -42,7 +42,7 @@ def merged(kept, verified):
 
 
 def read(path):
-    return json.loads(required(path).read_text(encoding="utf-8")) if path.exists() else {"rows": [], "costs": {}}
+    return json_of(path) if path.exists() else {"rows": [], "costs": {}}
 
 
 def write(path, kept):
@@ -50,8 +50,7 @@ def write(path, kept):
     rows = ",\n".join(json.dumps(row, separators=(",", ":")) for row in kept["rows"])
     costs = ",\n".join(f"{json.dumps(name)}:{json.dumps(cost, separators=(',', ':'))}"
                        for name, cost in sorted(kept["costs"].items()))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(f'{{"rows":[\n{rows}\n],\n"costs":{{\n{costs}\n}}}}\n', encoding="utf-8")
+    write_whole(path, f'{{"rows":[\n{rows}\n],\n"costs":{{\n{costs}\n}}}}\n')
 
 
 def due(kept, frequency):

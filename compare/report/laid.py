@@ -1,17 +1,16 @@
 """Plots of lay.json: one quantity each, ours and theirs."""
 
-import json
 
 import numpy as np
 
-from granvof_files import required
+from granvof_files import json_of
 from report import style
 from report.style import plt
 
 
 def draw(directory):
     """Names of the plots written into `directory`."""
-    laid = json.loads(required(directory / "lay.json").read_text())
+    laid = json_of(directory / "lay.json")
     names = []
     for curve in laid["curves"]:
         figure, axis = plt.subplots(figsize=(5.6, 3.8))

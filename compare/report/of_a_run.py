@@ -8,6 +8,7 @@ import jinja2
 import numpy as np
 
 import granvof
+from granvof_files import write_whole
 from report import snapshots, style
 from report.embedded import encoded
 from report.film import film
@@ -78,14 +79,14 @@ def show(directory):
     figures = [{"data": encoded((out / f"{plot}.png").read_bytes()), "caption": caption} for plot, caption in plots]
     moving = film(entry)
     if moving:
-        (out / "film.apng").write_bytes(moving)
+        write_whole(out / "film.apng", moving)
         figures.insert(0, {"data": encoded(moving),
                            "caption": f"Film, {plane}; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, undefined=jinja2.StrictUndefined)
     page = out / "report.html"
-    page.write_text(environment.get_template("run_page.html").render(
+    write_whole(page, environment.get_template("run_page.html").render(
         name=name, title=scene["title"], figures=figures, resolved=run.facts["resolved_case"], warnings=warnings_of(run.facts),
-        facts=[(what.replace("_", " "), shortened(run.facts[what])) for what in FACTS if run.facts.get(what) is not None]), encoding="utf-8")
+        facts=[(what.replace("_", " "), shortened(run.facts[what])) for what in FACTS if run.facts.get(what) is not None]))
     return page
 
 

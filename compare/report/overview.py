@@ -1,9 +1,8 @@
 """What the page says first: one line a scene and quantity, what fails by its cause, and the rest by scene."""
 
-import json
 from pathlib import Path
 
-from granvof_files import required
+from granvof_files import json_of
 from report import figures
 
 # The worst first.
@@ -75,7 +74,7 @@ def cost_ratio(results, run, case):
     theirs = []
     for record in results.records.get(case, {}).values():
         try:
-            theirs.append(json.loads(required(Path(record["directory"]) / "record.json").read_text(encoding="utf-8"))["core_seconds"])
+            theirs.append(json_of(Path(record["directory"]) / "record.json")["core_seconds"])
         except (OSError, ValueError, KeyError, TypeError):
             continue
     return sum(theirs) / len(theirs) / ours if ours and theirs else None

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import jinja2
 
+from granvof_files import write_whole
 from report import figures, kept_results, overview, style
 from report.embedded import encoded
 from report.film import film
@@ -61,7 +62,7 @@ def films(results):
         if moving is None:
             continue
         (results.directory / "plots").mkdir(exist_ok=True)
-        (results.directory / "plots" / f"film-{run}.apng").write_bytes(moving)
+        write_whole(results.directory / "plots" / f"film-{run}.apng", moving)
         made.append({"name": f"film-{run}", "data": encoded(moving),
                      "caption": f"{run}: film; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
     return made

@@ -9,6 +9,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 from complaint import complain, given_path  # noqa: E402
+from granvof_files import write_whole  # noqa: E402
 from report import charts, figures, kept_results, page, results, sections  # noqa: E402
 
 
@@ -38,13 +39,15 @@ def write(loaded, options):
     others = sections.read_all(out, directories)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     kept = kept_results.read(options.kept / "verify/results.json")
-    draft = options.verify / "report.html.tmp"  # a page that a full disk has cut would look whole
-    draft.write_text(page.render(loaded, plots, others, kept), encoding="utf-8")
-    draft.replace(options.verify / "report.html")
+    write_whole(options.verify / "report.html", page.render(loaded, plots, others, kept))
     for sentence in loaded.damaged:
         complain(f"report: {sentence}")
     return 1 if loaded.damaged else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except OSError as cause:  # a full disk, above all
+        complain(f"report: it cannot be written: {cause}")
+        sys.exit(1)

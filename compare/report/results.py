@@ -1,12 +1,11 @@
 """What `granvof-compare check` wrote, as the plots and the page read it."""
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from granvof_files import fields_of, is_there, required
+from granvof_files import fields_of, is_there, json_of, required
 
 
 class Damaged(ValueError):
@@ -23,7 +22,7 @@ OF_READING = (OSError, ValueError, KeyError, IndexError, TypeError, AttributeErr
 def read_json(path, *needed):
     """A JSON object that has these keys. Damaged where it is none."""
     try:
-        content = json.loads(required(path).read_text(encoding="utf-8"))
+        content = json_of(path)
         if not isinstance(content, dict):
             raise ValueError("no JSON object")
         for key in needed:

@@ -9,11 +9,10 @@ Only "title" is needed. Without "figures" all PNG of the folder are shown, named
 made at another commit than the runs of the page says so by its own commit and date.
 """
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from granvof_files import required
+from granvof_files import json_of, required
 from report.embedded import encoded
 from report.results import Damaged
 
@@ -40,7 +39,7 @@ def read_all(out, directories=None):
 def read(directory):
     source = directory / f"{directory.name}.json"
     try:
-        given = json.loads(required(source).read_text(encoding="utf-8"))
+        given = json_of(source)
         figures = given.get("figures", [{"file": path.name, "caption": path.stem.replace("-", " ")}
                                         for path in sorted(directory.glob("*.png"))])
         return Section(directory.name, given["title"], listed(given.get("text", [])),

@@ -9,7 +9,6 @@ compare/report/trust_table.py --check [--verify DIR]   write nothing; exit code 
 """
 
 import argparse
-import json
 import re
 import sys
 from dataclasses import dataclass
@@ -20,7 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 from complaint import complain, given_path  # noqa: E402
-from granvof_files import required  # noqa: E402
+from granvof_files import json_of, write_whole  # noqa: E402
 from report import charts, kept_results  # noqa: E402
 
 AGREES = ("agrees", "within band")
@@ -98,7 +97,7 @@ def preset_of(run):
 
 def dem_cost(scene, results=ROOT / "reference/results"):
     """Mean core-seconds of the records of a scene, None where there is none."""
-    costs = [json.loads(required(path).read_text(encoding="utf-8"))["core_seconds"]
+    costs = [json_of(path)["core_seconds"]
              for path in sorted((results / scene).glob("seed*/record.json"))]
     return mean(costs) if costs else None
 
@@ -253,7 +252,7 @@ def main(arguments):
     kept, verified = kept_results.read(path), None
     try:
         if options.verify:
-            verified = json.loads(required(options.verify / "results.json").read_text(encoding="utf-8"))
+            verified = json_of(options.verify / "results.json")
         if options.check:
             problems = check(options.root, kept, verified)
             print("\n".join(problems) or "tables and kept results agree")
@@ -270,7 +269,7 @@ def main(arguments):
         if figure.exists():
             charts.shrink(figure, options.root / "compare/report/picture.png")
     for file, text in texts.items():
-        (options.root / file).write_text(text, encoding="utf-8")
+        write_whole(options.root / file, text)
     return 0
 
 

@@ -11,6 +11,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "compare/engine/process.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_record.hpp"
 
@@ -38,8 +39,7 @@ CacheLock::CacheLock(const std::filesystem::path& cache) {
   if (!file_.valid()) throw OutputError("write", path, std::generic_category().message(errno));
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) throw OutputError("lock", path, std::generic_category().message(errno));
-    std::string holder = read_file(path);
-    while (!holder.empty() && (holder.back() == '\n' || holder.back() == ' ')) holder.pop_back();
+    const std::string holder = without_end(read_file(path));
     throw std::runtime_error(fmt::format("{} is in use: {}; wait for its end, or give another --cache",
                                          cache.string(), holder.empty() ? "another study has it" : holder));
   }

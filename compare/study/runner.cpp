@@ -66,7 +66,10 @@ CachedRunner::CachedRunner(RunnerOptions options)
       identity_(identity_of_program(options_.program, version_)) {}
 
 Order CachedRunner::order_of(const Job& job) const {
-  const Scene scene = load_scene(job.case_file, job.set);
+  return order_of(job, load_scene(job.case_file, job.set));
+}
+
+Order CachedRunner::order_of(const Job& job, const Scene& scene) const {
   Order order{fmt::format("{} {}", scene.name, fmt::join(job.set, " ")), job.case_file, job.set,
               options_.cache / scene.name / short_hash(scene.resolved + "\n" + identity_)};
   order.limits.wall_seconds = options_.timeout;
@@ -117,7 +120,8 @@ Outcome CachedRunner::make(const Scene& scene, const Order& order) {
 
 bool CachedRunner::has(const Job& job) {
   try {
-    return kept(job, load_scene(job.case_file, job.set), order_of(job)).has_value();
+    const Scene scene = load_scene(job.case_file, job.set);
+    return kept(job, scene, order_of(job, scene)).has_value();
   } catch (const CaseError&) {
     return true;
   }
@@ -133,7 +137,7 @@ Outcome CachedRunner::run(const Job& job) {
     refused.refused = true;
     return refused;
   }
-  const Order order = order_of(job);
+  const Order order = order_of(job, scene);
   if (auto found = kept(job, scene, order)) {
     found->kept = true;
     return *found;

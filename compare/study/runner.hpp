@@ -74,6 +74,7 @@ class CachedRunner : public Runner {
   Order order_of(const Job& job) const;
 
  private:
+  Order order_of(const Job& job, const Scene& scene) const;
   std::optional<Outcome> kept(const Job& job, const Scene& scene, const Order& order) const;
   Outcome make(const Scene& scene, const Order& order);
 

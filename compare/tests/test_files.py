@@ -4,6 +4,9 @@ import json
 import os
 import signal
 import stat
+import subprocess
+import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -178,3 +181,32 @@ def test_a_file_is_one_through_a_link_too(tmp_path):
     (tmp_path / "a").write_text("x")
     (tmp_path / "b").symlink_to("a")
     assert granvof_files.required(tmp_path / "b").read_text() == "x"
+
+
+def test_what_is_written_is_whole_or_as_before(tmp_path):
+    path = tmp_path / "made" / "report.html"
+    granvof_files.write_whole(path, "before")
+    assert path.read_text() == "before"
+    ended = subprocess.run([sys.executable, "-c", f"""
+import resource, signal, sys
+sys.path.insert(0, {str(Path(granvof_files.__file__).parent)!r})
+import granvof_files
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+try:
+    granvof_files.write_whole({str(path)!r}, "x" * 2000)
+except OSError:
+    sys.exit(7)
+"""], check=False)
+    assert ended.returncode == 7
+    assert path.read_text() == "before"
+    assert list(path.parent.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("make", [directory, pipe, endless])
+def test_nothing_else_than_a_file_is_replaced(tmp_path, make):
+    path = tmp_path / "results.json"
+    make(path)
+    with pytest.raises(OSError):
+        granvof_files.write_json(path, {})
+    assert list(tmp_path.iterdir()) == [path]

@@ -145,13 +145,3 @@ TEST(RecordScene, AnEndByLiggghtsIsAnEndThatIsWritten) {
   EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
   EXPECT_NE(facts.find("LIGGGHTS ended the program with exit code 1: ERROR"), std::string::npos) << facts;
 }
-
-TEST(RecordScene, AScratchFolderMayHaveBlanks) {
-  const granvof::test::TemporaryDirectory directory;
-  demvof::RecordOptions options;
-  options.out = directory.path() / "run";
-  options.scratch = directory.path() / "a b";
-  EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.002"}), options), 0);
-  for (const auto& left : fs::directory_iterator(options.scratch))
-    EXPECT_NE(left.path().extension(), ".log") << left.path();
-}

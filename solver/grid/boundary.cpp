@@ -18,21 +18,16 @@ Boundary::Boundary(const Grid& grid, const Communicator& communicator)
     : grid_(grid), communicator_(communicator) {
   grid.for_each_open_side([&](int d, bool upper) {
     const SideRule& rule = grid.side(d, upper);
-    if (rule.pressure) {
-      if (!has_pressure_) side_pressure_ = Field(grid);
-      has_pressure_ = true;
-      set_beyond(side_pressure_, d, upper, rule.pressure);
-    }
-    if (rule.liquid_that_flows_back) {
-      flows_back_ = Field(grid);
+    if (rule.pressure) set_beyond(side_pressure_, d, upper, rule.pressure);
+    if (rule.liquid_that_flows_back)
       set_beyond(flows_back_, d, upper,
-                 [&](const Vec3& place) { return rule.liquid_that_flows_back(place, grid.h[1]); });
-    }
+                 [&](const Vec3& place) { return rule.liquid_that_flows_back(place, grid.h[vertical]); });
   });
 }
 
 template <typename Value>
 void Boundary::set_beyond(Field& f, int d, bool upper, Value&& value) const {
+  if (f.empty()) f = Field(grid_);
   const Layout& l = grid_.cells;
   std::array<int, 3> at{};
   const int e = (d + 1) % 3, g = (d + 2) % 3;

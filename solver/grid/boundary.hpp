@@ -23,7 +23,7 @@ class Boundary {
   void fill_pressure(Field& p) const;
   void fill_pressure_increment(Field& p) const;
   // The pressure on the faces of a side, at the index of the first cell beyond it; null where all are zero.
-  const double* side_pressure() const { return has_pressure_ ? side_pressure_.data() : nullptr; }
+  const double* side_pressure() const { return side_pressure_.empty() ? nullptr : side_pressure_.data(); }
   // Faces of a side: the given velocity (zero on closed ones), or that of grains that leave. Ghosts by the
   // side's tangent; no normal gradient where a phase passes.
   void fill_velocity(FaceField& u, Phase phase) const;
@@ -37,7 +37,8 @@ class Boundary {
  private:
   template <typename Rule>
   void fill_cells(Field& f, Rule&& rule) const;
-  // value(place on the side [m]) on every face of a side, ghost rows along it included.
+  // value(place on the side [m]) on every face of a side, ghost rows along it included, in a field that is
+  // allocated if it was not.
   template <typename Value>
   void set_beyond(Field& f, int d, bool upper, Value&& value) const;
   void fill_sides(FaceField& u, int d, Phase phase) const;
@@ -47,7 +48,6 @@ class Boundary {
   const Communicator& communicator_;
   // Both at the index of the first cell beyond a side, allocated if a side has them.
   Field side_pressure_, flows_back_;
-  bool has_pressure_ = false;
 };
 
 }  // namespace granvof

@@ -33,6 +33,13 @@ bool Grid::has_whole_columns() const {
   return only_the_top;
 }
 
+bool Grid::has_bumps() const {
+  for (int d = 0; d < dim; ++d)
+    for (const bool upper : {false, true})
+      if (side(d, upper).bumps) return true;
+  return false;
+}
+
 bool Grid::sealed() const {
   for (int d = 0; d < dim; ++d)
     for (const bool upper : {false, true})

@@ -35,6 +35,8 @@ struct Grid {
   // Cells and `layers` ghosts in every computed direction.
   Range cells_and_ghosts(int layers) const;
   const SideRule& side(int d, bool upper) const { return sides[2 * d + (upper ? 1 : 0)]; }
+  // Grains meet bumps on a side.
+  bool has_bumps() const;
   // No side passes the fluid: its volume has nowhere to go, and P_c no level of its own.
   bool sealed() const;
 

@@ -36,11 +36,8 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
   for (int p = 0; p < (grid.dim == 2 ? 1 : 3); ++p) {
     mu_edge_[p] = Field(grid);
     shear_[p] = Field(grid);
+    if (grid.has_bumps()) kinetic_edge_[p] = Field(grid);
   }
-  for (int d = 0; d < grid.dim; ++d)
-    for (const bool upper : {false, true})
-      for (int p = 0; boundary.side(d, upper).bumps && p < (grid.dim == 2 ? 1 : 3); ++p)
-        kinetic_edge_[p] = Field(grid);
   if (scene.numerics.bed_surface == BedSurface::part_cells) {
     mu_vertical_ = Field(grid);
     for (int d = 0; d < grid.dim; d += 2)

@@ -25,6 +25,14 @@ struct Contacts {
   double normal_squared = 0.0;  // S:S of what is averaged over cells [1/s2]
 };
 
+// Edges of plane (d, e) on a side of direction d, within the box.
+Range edges_on_side(const Grid& grid, const Range& box, int d, int e, bool upper) {
+  Range wall = grid.edges(d, e);
+  wall.lower[d] = upper ? grid.cells.n[d] : 0;
+  wall.upper[d] = wall.lower[d] + 1;
+  return common(wall, Grid::edges(box, d, e));
+}
+
 }  // namespace
 
 // Grains in a part of a cell rest on what lies below and rub along it; above they are free. What falls on
@@ -169,10 +177,7 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
       if (std::isinf(mu_w)) continue;
       for (int e = 0; e < grid_.dim; ++e) {
         if (e == d) continue;
-        Range wall = grid_.edges(d, e);
-        wall.lower[d] = upper ? grid_.cells.n[d] : 0;
-        wall.upper[d] = wall.lower[d] + 1;
-        wall = common(wall, Grid::edges(box_, d, e));
+        const Range wall = edges_on_side(grid_, box_, d, e, upper);
         const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, t = grid_.stride(e);
         const double h = grid_.h[d], u_wall = side.velocity[e];
         const int g =
@@ -217,10 +222,7 @@ void Friction::slip_on_bumps(const Rheology& rheology) {
       for (int e = 0; e < grid_.dim; ++e) {
         if (e == d) continue;
         const int plane = plane_index(std::min(d, e), std::max(d, e));
-        Range wall = grid_.edges(d, e);
-        wall.lower[d] = upper ? grid_.cells.n[d] : 0;
-        wall.upper[d] = wall.lower[d] + 1;
-        wall = common(wall, Grid::edges(box_, d, e));
+        const Range wall = edges_on_side(grid_, box_, d, e, upper);
         const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
         const double half = 0.5 * grid_.h[d];
         double *own = kinetic_edge_[plane].data(), *edge = mu_edge_[plane].data();

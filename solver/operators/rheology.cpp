@@ -11,16 +11,6 @@
 #include "solver/operators/thin_layer.hpp"
 
 namespace granvof {
-namespace {
-
-bool has_bumps(const Grid& grid, const Boundary& boundary) {
-  for (int d = 0; d < grid.dim; ++d)
-    for (const bool upper : {false, true})
-      if (boundary.side(d, upper).bumps) return true;
-  return false;
-}
-
-}  // namespace
 
 // Of grains that the fluid between them stops: the rate of their shear is that of the old level, as for
 // friction.
@@ -115,7 +105,7 @@ void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, co
     mu[c] = f[c] < least_solid_fraction ? 0.0 : laws.viscosity(f[c], t[c], e[c], rho_s, d_s);
   });
   boundary.fill_scalar(kinetic_viscosity);
-  if (!has_bumps(grid, boundary)) return;
+  if (!grid.has_bumps()) return;
   if (bump_pressure.empty()) bump_pressure = Field(grid);
   double* bump = bump_pressure.data();
   for_each(grid.cells, [=, &laws](std::ptrdiff_t c) {

@@ -9,6 +9,7 @@
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/hdf5_file.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/scene/fnv1a.hpp"
 
 namespace granvof {
 
@@ -20,9 +21,7 @@ constexpr std::int64_t format_version = 2;
 // (64-bit FNV-1a). It is compared before HDF5 sees the file, since HDF5 1.10 neither notices all damage nor
 // survives all of it.
 std::string seal_of(std::string_view content) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : content) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  return fmt::format("granvof checkpoint {:016x}\n", hash);
+  return fmt::format("granvof checkpoint {:016x}\n", fnv1a(content));
 }
 
 void check_seal(const std::filesystem::path& path) {

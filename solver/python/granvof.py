@@ -11,14 +11,13 @@ arrays under the same names. Everything in SI units; docs/output.md says what ea
 """
 
 import csv
-import json
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from granvof_files import fields_of, is_there, required
+from granvof_files import fields_of, is_there, json_of, required
 
 try:
     import pandas
@@ -71,7 +70,7 @@ def load(directory, fields=True):
 
 def read_facts(path):
     try:
-        return json.loads(required(path).read_text(encoding="utf-8"))
+        return json_of(path)
     except (OSError, ValueError) as error:
         raise NotARun(f"{path}: {error}") from error
 

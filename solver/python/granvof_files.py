@@ -1,9 +1,11 @@
 """Opens what a run has left behind, or what others give: only what is a file. Opening a pipe waits for its other end, and a
-device may have no end."""
+device may have no end. Writes results whole or not at all."""
 
 import contextlib
+import json
 import os
 import stat
+import tomllib
 from pathlib import Path
 
 
@@ -23,6 +25,35 @@ def required(path):
         if of_kind(mode):
             raise NotAFile(f"it is {name}, not a file")
     return path
+
+
+def json_of(path):
+    """What a JSON file holds; raises as required() and the parser do."""
+    return json.loads(required(Path(path)).read_text(encoding="utf-8"))
+
+
+def toml_of(path):
+    return tomllib.loads(required(Path(path)).read_text(encoding="utf-8"))
+
+
+def write_whole(path, content):
+    """Text or bytes into a file whose name appears, or changes its content, only when all of it is written: on a full disk
+    what was there stays. The folder is made. OSError where it cannot be written, NotAFile where no file has that name."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if is_there(path):
+        required(path)
+    draft = path.with_name(path.name + ".part")
+    try:
+        draft.write_bytes(content if isinstance(content, bytes) else content.encode())
+        draft.replace(path)
+    except OSError:
+        draft.unlink(missing_ok=True)
+        raise
+
+
+def write_json(path, content, **form):
+    write_whole(path, json.dumps(content, **(form or {"indent": 1})) + "\n")
 
 
 def is_there(path):

@@ -44,7 +44,7 @@ double created_beside_misplaced(const EnergyTerms& e) {
 
 // Without gravity a tank at rest stores nothing to take shares of: then of the scene's own energy.
 double least_energy(const Scene& scene, const EnergyTerms& start) {
-  return least_share_of_store * (start.stored() + scales_of(scene).energy) +
+  return least_share_of_store * (std::fabs(start.stored()) + scales_of(scene).energy) +
          least_share_of_bed * energy_of_bed(scene);
 }
 
@@ -99,7 +99,9 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("refused steps", static_cast<double>(counts.refused),
        std::max(few_refused, refused_share * static_cast<double>(counts.steps + counts.refused)),
        "steps are tried in vain: numerics.newton_max, cfl or dt_max do not suit the flow");
-  const double given = start_.stored() + e.walls + std::max(-e.outflow, 0.0) + least_energy(scene_, start_);
+  // In an inclined tank the potential counts from the upper end and may be negative: its size is what counts.
+  const double given =
+      std::fabs(start_.stored()) + e.walls + std::max(-e.outflow, 0.0) + least_energy(scene_, start_);
   if (e.in_motion() > energy_that_stops * given)
     return fmt::format("blow-up: {:.3g} J in motion at t = {:.6g} s, and the run was given {:.3g} J",
                        e.in_motion(), s.time, given);

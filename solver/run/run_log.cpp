@@ -6,10 +6,14 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/output/atomic_file.hpp"
+
 namespace granvof {
 
 void RunLog::open(const std::filesystem::path& directory, bool resumed) {
-  sink_ = std::make_shared<spdlog::sinks::basic_file_sink_st>((directory / "run.log").string(), !resumed);
+  const auto file = directory / "run.log";
+  require_file(file, "write");
+  sink_ = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), !resumed);
   spdlog::default_logger()->sinks().push_back(sink_);
   spdlog::default_logger()->flush_on(spdlog::level::info);
 }

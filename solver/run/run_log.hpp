@@ -13,7 +13,8 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
   ~RunLog();
-  // Opens it; what is said from now on goes there too. Throws spdlog::spdlog_ex where it cannot be opened.
+  // Opens it; what is said from now on goes there too. Throws OutputError where a pipe or a
+  // device has its name, spdlog::spdlog_ex where it cannot be opened.
   void open(const std::filesystem::path& directory, bool resumed);
 
  private:

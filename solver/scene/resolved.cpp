@@ -4,23 +4,11 @@
 #include <fmt/format.h>
 
 #include "solver/scene/complete.hpp"
+#include "solver/scene/fnv1a.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/presets.hpp"
 
 namespace granvof::case_file {
-namespace {
-
-// FNV-1a, 64 bits (Fowler, Noll & Vo): the same on every machine.
-std::uint64_t fnv1a(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ULL;
-  }
-  return hash;
-}
-
-}  // namespace
 
 std::string resolved_text(const Draft& draft) {
   std::string text;

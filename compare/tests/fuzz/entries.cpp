@@ -18,6 +18,7 @@
 #include "solver/plausibility/plausibility.hpp"
 #include "solver/scene/cost_estimate.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/small_tank.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::fuzz {
@@ -88,32 +89,9 @@ void take_run_json(std::string_view bytes) {
 }
 
 const Scene& small_scene() {
-  static const Scene scene = parse_scene(R"([scene]
-name = "fuzz"
-dimensions = 2
-[tank]
-size = [0.2, 0.1]
-[grid]
-dx = 0.05
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.05
-[solid]
-density = 2500
-diameter = 0.8e-3
-friction = 0.4
-[bed]
-length = 0.1
-height = 0.05
-solid_fraction = 0.57
-[time]
-end = 1
-)",
-                                         "fuzz");
+  static const Scene scene = test::small_tank("fuzz", "size = [0.2, 0.1]", 0.05,
+                                              "[bed]\nlength = 0.1\nheight = 0.05\nsolid_fraction = 0.57\n",
+                                              {"grid.dx=0.05", "time.end=1"});
   return scene;
 }
 

@@ -103,6 +103,14 @@ void WorkMeter::count_bead(int atom, bool whole_step, BeadWork& first) {
   const bool loaded = bead < load_.coefficient.size();
   const double coefficient = loaded ? load_.coefficient[bead] : 0.0, half = 0.5 * dt_;
   double plate = 0.0;  // its force upwards
+  // The kick that ends a step, at the rate `rate` or after the one that begins it.
+  const auto kick_twice = [&](const auto& add, double rate, double load, double inertia) {
+    if (whole_step) {
+      add(first, kicked(rate, load, inertia, half));
+      rate += half * load / inertia;
+    }
+    add(second_kick_, kicked(rate, load, inertia, half));
+  };
   for (int d = 0; d < 3; ++d) {
     const auto n = static_cast<std::size_t>(3 * atom + d), m = 3 * bead + static_cast<std::size_t>(d);
     const double total = atoms.f[atom][d], v = atoms.v[atom][d];
@@ -120,12 +128,7 @@ void WorkMeter::count_bead(int atom, bool whole_step, BeadWork& first) {
       work.walls += walls * path;
       work.gate += gate * path;
     };
-    double before_second = v;
-    if (whole_step) {
-      add(first, kicked(v, total, mass_, half));
-      before_second = v + half * total / mass_;
-    }
-    add(second_kick_, kicked(before_second, total, mass_, half));
+    kick_twice(add, v, total, mass_);
 
     const double torque = atoms.torque[atom][d], spin = atoms.omega[atom][d];
     const double by_beads = beads_.torque[n], by_walls = walls_.torque[n] - by_beads,
@@ -136,12 +139,7 @@ void WorkMeter::count_bead(int atom, bool whole_step, BeadWork& first) {
       work.walls += by_walls * angle;
       work.gate += by_gate * angle;
     };
-    double spin_before_second = spin;
-    if (whole_step) {
-      add_spin(first, kicked(spin, torque, inertia_, half));
-      spin_before_second = spin + half * torque / inertia_;
-    }
-    add_spin(second_kick_, kicked(spin_before_second, torque, inertia_, half));
+    kick_twice(add_spin, spin, torque, inertia_);
     if (d == 1) plate = gate;
   }
   if (whole_step) first.gate_drive += plate * gate_speed_ * dt_;

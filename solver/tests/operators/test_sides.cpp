@@ -106,6 +106,36 @@ TEST(Boundary, AnInletAndAnOutlet) {
   }
 }
 
+// Rows of 0.1 m: what flows back is liquid up to the level of either outlet; what leaves is as inside.
+TEST(Boundary, WhatFlowsBackLiesBeyondThatOutlet) {
+  Scene scene = box();
+  for (const auto& [side, level] : {std::pair{left, 0.25}, std::pair{right, 0.1}}) {
+    scene.sides[side].kind = SideKind::outlet;
+    scene.sides[side].outflow = {0.0, level};
+  }
+  const Tank s(scene);
+  const auto beyond = [&](double inward) {
+    Field a(s.grid, 0.4);
+    FaceField q(s.grid);
+    for (int j = 0; j < 3; ++j) {
+      q[0][s.grid.cells.index(0, j, 0)] = inward;
+      q[0][s.grid.cells.index(4, j, 0)] = -inward;
+    }
+    s.boundary.fill_liquid_share(a, q);
+    std::array<double, 6> rows{};
+    for (int j = 0; j < 3; ++j) {
+      rows[j] = a[s.grid.cells.index(-1, j, 0)];
+      rows[3 + j] = a[s.grid.cells.index(5, j, 0)];
+    }
+    return rows;
+  };
+  const std::array<double, 6> levels{1.0, 1.0, 0.5, 1.0, 0.0, 0.0};
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(beyond(0.1)[i], levels[i], 1e-12) << i;
+    EXPECT_EQ(beyond(-0.1)[i], 0.4) << i;
+  }
+}
+
 TEST(Boundary, AnInletWithoutGrainsIsAWallToThem) {
   Scene scene = box();
   scene.sides[bottom].kind = SideKind::inlet;

@@ -9,11 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/simulation.hpp"
+#include "solver/tests/small_tank.hpp"
 
 namespace granvof::test {
 
@@ -55,34 +54,6 @@ field_times = [0, 0.05]
 
 inline Scene column_scene(const std::vector<std::string>& overrides = {}) {
   return parse_scene(column_case, "column.toml", overrides);
-}
-
-// A tank of cells of 5 mm, with water up to `level`, air above and glass beads for whoever sets a bed.
-// `tank`: the lines of [tank]; `tables`: those of the case beside these.
-inline Scene small_tank(const std::string& name, std::string_view tank, double level, std::string_view tables,
-                        const std::vector<std::string>& overrides) {
-  return parse_scene(fmt::format(R"([scene]
-name = "{}"
-[tank]
-{}
-[grid]
-dx = 0.005
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = {}
-[solid]
-density = 2500
-diameter = 0.8e-3
-friction = 0.4
-[time]
-end = 100
-{})",
-                                 name, tank, level, tables),
-                     name, overrides);
 }
 
 inline constexpr std::string_view tight_tolerances = R"([numerics]

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "solver/run/closing_line.hpp"
 #include "solver/tests/run/small_runs.hpp"
@@ -71,6 +72,17 @@ TEST(RunLog, HoldsEveryMessageAndAResumedRunAddsToIt) {
   EXPECT_EQ(count(both, "finished"), 2U) << both;
   ASSERT_EQ(run_into(out, column_scene({"time.end=0.03", "output.field_times=[]"})), 0);  // anew
   EXPECT_EQ(count(text_of(out / "run.log"), "finished"), 1U);
+}
+
+// Opening a pipe would wait for a reader for ever.
+TEST(RunLog, IsNoPipe) {
+  const test::TemporaryDirectory temporary;
+  const auto out = temporary.path() / "run";
+  ASSERT_EQ(run_into(out, column_scene({"time.end=0.02", "output.field_times=[]"})), 0);
+  std::filesystem::remove(out / "run.log");
+  ASSERT_EQ(::mkfifo((out / "run.log").c_str(), 0600), 0);
+  EXPECT_EQ(run_into(out, column_scene({"time.end=0.03", "output.field_times=[]"}), true), 1);
+  EXPECT_NE(text_of(out / "run.json").find("it is a device or a pipe"), std::string::npos);
 }
 
 }  // namespace

@@ -243,7 +243,7 @@ TEST(EnergyBudget, ResidualFollowsTheTolerance) {
         {std::string("numerics.volume_tolerance=") + tolerance, "numerics.linear_tolerance=0.1"}));
     run.until(0.05);
     const double residual = std::fabs(run.now.energy.residual);
-    EXPECT_GT(residual, 10.0 * last) << tolerance;
+    EXPECT_GT(residual, 4.0 * last) << tolerance;  // the loosest leaves what one solve does
     last = residual;
   }
 }

@@ -22,7 +22,7 @@ TEST(CostEstimate, IsWithinAFactorOfTwoOfTheStepsOfRealRuns) {
   };
   for (const Taken& taken :
        {Taken{"dam-break", 268}, Taken{"dry-column", 306}, Taken{"float-full-r04", 1239}, Taken{"heap", 519},
-        Taken{"pool", 408}, Taken{"s1", 241}, Taken{"s2", 372}, Taken{"sloshing", 758}}) {
+        Taken{"pool", 4008}, Taken{"s1", 241}, Taken{"s2", 372}, Taken{"sloshing", 758}}) {
     const double steps = estimate_cost(shipped(taken.scene)).steps;
     EXPECT_GT(steps, 0.5 * taken.steps) << taken.scene;
     EXPECT_LT(steps, 2.0 * taken.steps) << taken.scene;

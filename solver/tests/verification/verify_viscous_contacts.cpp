@@ -85,7 +85,7 @@ double mean(const Curve& curve, double from, double to) {
 // Dense: it sucks at its pores, creeps, and speeds up over minutes as it dilates. Goals are 30 % in delay,
 // sign and size of the pressure. Sign and largest suction are met (-2.8 of -3.4 Pa). By name not met: the
 // suction fades too soon (its mean from 40 to 160 s is 0.6 of theirs), so that half of the last speed is
-// there at 120 s instead of 200 s, and that speed is 0.45 of theirs. Not the cause, each tried: grid, step,
+// there at 120 s instead of 200 s, and that speed is 0.45 of theirs. Not the cause, each tried:
 // f_c 0.585, f_s,max 0.62. Red if any gets worse, and if it is met.
 TEST(TiltedLayer, DenseStartsLateAndSucks) {
   const Start start = start_of(0.584, 520.0, {"numerics.dt_max=0.1"});
