@@ -23,14 +23,14 @@ def energy_plot(results, run, directory):
     if "open" not in curves or not any(np.abs(y).max() > 0 for _, y in curves.values()):
         return []
     unit = results.curves[run]["scene"]["time_unit"]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), sharex=True)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 4.4), sharex=True)
     for (name, label), colour, line in zip([("potential", "potential, all phases"), ("kinetic", "kinetic, both phases"),
                                             ("granular", "granular"), ("elastic", "elastic, contacts")],
                                            style.CYCLE, style.LINES):
         t, y = curves[name]
         left.plot(t / unit, 1e3 * y, color=colour, linestyle=line, label=label)
     left.set_ylabel("change of stored energy [mJ]")
-    style.legend(left)
+    style.legend(left, columns=2)
     t = curves["open"][0]
     stacked = [np.maximum(1e3 * curves[name][1], 0.0) for name, _, _ in LOSSES]
     right.stackplot(t / unit, stacked, colors=[colour for _, _, colour in LOSSES], labels=[label for _, label, _ in LOSSES],
@@ -38,11 +38,11 @@ def energy_plot(results, run, directory):
     for name, label, colour, line in LINES:
         right.plot(t / unit, 1e3 * curves[name][1], color=colour, linestyle=line, linewidth=1.1, label=label)
     right.set_ylabel("energy lost (negative: made) [mJ]")
-    right.legend(fontsize=6.5, loc="upper left")
+    style.legend(right, columns=2, size=6.5)
     for axis in (left, right):
         axis.set_xlabel("T [-]" if unit != 1.0 else "t [s]")
         axis.axhline(0, color="0.6", linewidth=0.6)
-    left.set_title(run, loc="left", fontsize=9)
+    figure.suptitle(run, x=0.01, horizontalalignment="left", fontsize=9)
     style.stamp(figure, results.facts(run))
     return [style.save(figure, directory, f"energy-{run}", pdf=False)]
 
