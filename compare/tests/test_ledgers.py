@@ -78,12 +78,16 @@ def test_a_damaged_series_is_named(verify_directory, tmp_path):
 
 def test_legends_of_a_budget_cover_neither_data_nor_names(tmp_path, monkeypatch):
     t = np.linspace(0.0, 1.0, 20)
-    names = [name for name, _, _ in energy.LOSSES] + [entry[0] for entry in energy.LINES] + ["potential", "kinetic", "granular", "elastic"]
-    curves = {f"energy:{name}": {"x": list(t), "y": list(t)} for name in names}
+    stored = ["potential, both phases", "kinetic, both phases", "granular", "elastic, contacts"]
+    lost = [f"numerics: transport of momentum {i}" for i in range(15)]
+    ledger = [{"name": label, "label": label, "kind": kind, "never_gains": len(label) % 2 == 0}
+              for kind, labels in (("stored", stored), ("numerical", lost), ("residual", ["open"])) for label in labels]
+
+    curves = {f"energy:{term['name']}": {"x": list(t), "y": list(t)} for term in ledger}
 
     class Compared:
         def __init__(self):
-            self.curves = {"canary-dry-frictional": {"scene": {"time_unit": 1.0}, "curves": curves}}
+            self.curves = {"canary-dry-frictional": {"scene": {"time_unit": 1.0}, "curves": curves, "ledger": ledger}}
 
         def facts(self, run):
             return [{"id": run, "case_hash": "18a1ced3", "host": "A Processor", "version": "0.2.0"}]
