@@ -161,6 +161,13 @@ def test_what_the_compiler_decides_is_refused():
         cpp.switched(text, [(*listed.place(mutant, text), mutant.number)])
 
 
+def test_a_text_is_switched_as_a_whole():
+    text = 'const char* f() {\n  return g("old name", 1);\n}\n'
+    mutant = listed.Mutant("toy/f.cpp", "n", 'g("old name"', 'g("new name"')
+    assert f'g((::granvof::mutation::on<0x{mutant.number}u>() ? ("new name") : ("old name")), 1)' in \
+        cpp.switched(text, [(*listed.place(mutant, text), mutant.number)])
+
+
 def test_the_number_of_a_fault_survives_edits_elsewhere():
     assert fault("a", "b").number == fault("a", "b", why="none").number
     assert fault("a", "b").number != fault("a", "c").number
