@@ -157,13 +157,17 @@ void Boundary::fill_beyond(FaceField& u, int d, bool upper, Phase phase) const {
 void Boundary::fill_velocity(FaceField& u, Phase phase) const {
   const Layout& l = grid_.cells;
   for (int c = 0; c < grid_.dim; ++c) communicator_.exchange(l, u[c].data());
-  for (int d = 0; d < grid_.dim; ++d) {
-    if (l.periodic[d]) continue;
-    // Both sides' faces first, then the upper ghosts: with one cell between the sides the lower ones mirror
-    // those.
-    fill_sides(u, d, phase);
+  // The faces on all sides first, then the ghosts: the rows of ghosts along a side then follow the side that
+  // they lie beyond, whichever direction comes first. Upper ghosts before lower ones: with one cell between
+  // the sides these mirror those.
+  const auto for_each_direction = [&](auto&& fill) {
+    for (int d = 0; d < grid_.dim; ++d)
+      if (!l.periodic[d]) fill(d);
+  };
+  for_each_direction([&](int d) { fill_sides(u, d, phase); });
+  for_each_direction([&](int d) {
     for (const bool upper : {true, false}) fill_beyond(u, d, upper, phase);
-  }
+  });
 }
 
 }  // namespace granvof
