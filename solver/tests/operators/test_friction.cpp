@@ -293,6 +293,33 @@ TEST(Friction, UniformShearTakesTheLawsPower) {
               stress * rate * 0.04 * 0.16, 1e-4 * stress * rate * 0.04 * 0.16);
 }
 
+// Stretch without shear: a cell loses 2 mu (du/dx)^2, mu of the law at |S| of the deviator, |du/dx| /
+// sqrt(3).
+TEST(Friction, StretchTakesTheLawsPower) {
+  Scene scene = box_scene(2, {8, 4, 1}, {0.08, 0.04, 1.0}, WallKind::slip);
+  scene.contact.regularisation = 0.05;         // far from both ends of the law
+  const double pressure = 300.0, heavy = 1e9;  // so heavy that nothing moves
+  Bed bed(scene);
+  bed.rheology.enduring_pressure.fill(pressure);
+  bed.u = bed.s.faces({[](const Vec3& x) { return 0.2 * std::sin(M_PI * x[0] / 0.08); },
+                       [](const Vec3&) { return 0.0; }, [](const Vec3&) { return 0.0; }});
+  bed.u_strain = bed.u;
+  for (int d : {0, 1}) {
+    bed.mass[d].fill(heavy);
+    bed.s.each(bed.s.grid.inner_faces(d),
+               [&](int, int, int, std::ptrdiff_t c) { bed.rhs[d][c] = heavy * bed.u[d][c]; });
+  }
+  bed.solve();
+  double expected = 0.0;
+  bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) {
+    const double stretch = std::fabs(bed.u[0][c + 1] - bed.u[0][c]) / bed.s.grid.h[0];
+    expected += bed.s.grid.cell_volume * 2.0 * stretch * stretch *
+                closures::friction_viscosity(pressure, scene.solid.friction, 0.05, stretch / std::sqrt(3.0));
+  });
+  Field kinetic(bed.s.grid);
+  EXPECT_NEAR(bed.friction.power(bed.mass, bed.u, bed.u, kinetic).friction, expected, 1e-6 * expected);
+}
+
 // In 3D the wall's stress opposes the sliding, at mu_w P_s in all and not in each direction.
 TEST(Friction, CoulombWallLimitsTheVectorOfItsStress) {
   Scene scene = box_scene(3, {4, 8, 4}, {0.04, 0.08, 0.04}, WallKind::slip);
