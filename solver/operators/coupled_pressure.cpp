@@ -47,14 +47,13 @@ auto law_of_cells(const SolidPressureState& state, const closures::SolidLaw& law
 
 }  // namespace
 
-CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                 const Communicator& communicator)
+CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
       law_(scene),
       load_(scales_of(scene).pressure),
-      solver_(grid.cells, communicator, grid.h),
+      solver_(grid.cells, grid.h),
       fraction_(scene.numerics.solid_flux),
       us_by_pc_(grid),
       us_by_ps_(grid),

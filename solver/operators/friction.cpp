@@ -16,8 +16,7 @@ constexpr int smoothing = 2;
 
 }  // namespace
 
-Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                   const Communicator& communicator)
+Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
@@ -27,7 +26,6 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       lambda_(grid),
       divergence_(grid),
       marked_(grid),
-      communicator_(communicator),
       direct_(grid),
       component_mass_(grid),
       weight_(grid),
@@ -65,9 +63,9 @@ void Friction::fit_box(const FaceInertia& inertia) {
     faces_[d] = faces_of(grid_, box_, d);
     if (is_empty(box_)) continue;
     layouts.push_back(faces_[d]);
-    multigrid_.emplace_back(faces_[d], communicator_, grid_.h);
+    multigrid_.emplace_back(faces_[d], grid_.h);
   }
-  if (!layouts.empty()) solver_.emplace(layouts, communicator_);
+  if (!layouts.empty()) solver_.emplace(layouts);
 }
 
 void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) {

@@ -57,14 +57,13 @@ Field loss_to_bumps(const Grid& grid, const Boundary& boundary) {
 
 }  // namespace
 
-GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                         const Communicator& communicator)
+GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
       laws_(scene),
       wall_loss_(loss_to_bumps(grid, boundary)),
-      solver_(grid.cells, communicator, grid.h),
+      solver_(grid.cells, grid.h),
       conductivity_(grid),
       kappa_(grid),
       mass_(grid),

@@ -124,7 +124,7 @@ TEST_F(RunAlarms, EnergyFromNothingStopsTheRun) {
 class AlarmRules : public ::testing::Test {
  protected:
   AlarmRules()
-      : grid_(scene_), boundary_(grid_, communicator_), state_(initial_state(grid_, scene_, boundary_)) {
+      : grid_(scene_), boundary_(grid_), state_(initial_state(grid_, scene_, boundary_)) {
     state_.energy.kinetic = 1.0;  // so that shares of the turnover mean something
   }
   std::vector<Warning> raised(const EnergyTerms& energy, std::int64_t unconverged = 0) {
@@ -169,7 +169,6 @@ class AlarmRules : public ::testing::Test {
 
  private:
   Scene scene_ = column_scene();
-  SerialCommunicator communicator_;
   Grid grid_;
   Boundary boundary_;
   State state_;
