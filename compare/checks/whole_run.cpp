@@ -61,7 +61,7 @@ Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
 }
 
 Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
-  return measured(numerical_share(energy_budget(run), run.facts.number("energy_turnover")),
+  return measured(share_of("numerical", energy_budget(run), run.facts.number("energy_turnover")),
                   "no energy budget in the series or in run.json");
 }
 

@@ -1,4 +1,4 @@
-// The energy budget of a run, from the columns energy_*, lost_* and gained_* of its series.
+// The energy budget of a run: what its ledger (run.json) says of the columns of its series.
 #pragma once
 
 #include <map>
@@ -9,19 +9,18 @@
 
 namespace granvof::compare {
 
-// By name, each [J] against time [s] and 0 at the first row: `kinetic`, `potential`, `granular`, `elastic`
-// (changes of what is stored), `drag`, `friction`, `viscosity`, `collisions`, `outside` (losses; outside:
-// outflow less the work of moving walls), `dilatancy` (the loss by the work of P_s^EF), the five
-// `numerical_*` and `numerical`, their sum, and `open`, what is left of the sum of all: the residual.
-// Empty for a series without these columns.
+// Each term of the ledger by the name of its column, [J] against time [s], 0 at the first row and signed so
+// that their sum over all but parts and the residual is what is not accounted for: changes of what is stored
+// and losses are positive, gains negative. Besides these `numerical`, the sum of its kind, and `open`, the
+// sum of all. Empty for a run without a ledger, or without one of its columns.
 std::map<std::string, Curve> energy_budget(const Run& run);
 
 // Largest |open| over the turnover [J]; nothing without both.
 std::optional<double> closure_error(const std::map<std::string, Curve>& budget,
                                     std::optional<double> turnover);
 
-// Last `numerical` over the turnover.
-std::optional<double> numerical_share(const std::map<std::string, Curve>& budget,
-                                      std::optional<double> turnover);
+// Last value of a term over the turnover; nothing without them.
+std::optional<double> share_of(const std::string& term, const std::map<std::string, Curve>& budget,
+                               std::optional<double> turnover);
 
 }  // namespace granvof::compare

@@ -36,6 +36,14 @@ StatedFiles stated_files(const nlohmann::json& json) {
   return files;
 }
 
+std::vector<LedgerTerm> ledger_of(const nlohmann::json& json) {
+  std::vector<LedgerTerm> ledger;
+  for (const auto& term : json)
+    ledger.push_back({term.at("name"), term.at("kind"), term.at("sign"), term.at("never_gains"),
+                      term.at("label"), term.at("meaning"), term.at("measured_in")});
+  return ledger;
+}
+
 RunFacts facts_of(const nlohmann::json& json) {
   RunFacts facts;
   facts.scene = text_of(json, "scene");
@@ -58,6 +66,7 @@ RunFacts facts_of(const nlohmann::json& json) {
   if (const auto monitors = json.find("monitors"); monitors != json.end() && monitors->is_object())
     for (const auto& [key, value] : monitors->items())
       if (value.is_number()) facts.numbers.emplace(key, value.get<double>());
+  if (const auto ledger = json.find("ledger"); ledger != json.end()) facts.ledger = ledger_of(*ledger);
   if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
     facts.numbers["warnings"] = static_cast<double>(warnings->size());
   if (const auto grid = json.find("grid"); grid != json.end() && grid->is_object())

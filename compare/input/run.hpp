@@ -13,6 +13,7 @@
 #include "compare/input/evidence.hpp"
 #include "compare/metrics/curve.hpp"
 #include "solver/output/cell_fields.hpp"
+#include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -24,6 +25,7 @@ struct RunFacts {
   std::string exit, reason;               // "finished", "failed", ... and why
   std::string kind;                       // exit.kind; of earlier versions, what follows from the state
   std::map<std::string, double> numbers;  // core_seconds, cells, steps, ... and the program's monitors
+  std::vector<LedgerTerm> ledger;         // of its energy; empty: it states none
   std::optional<Grid3> grid;
   std::optional<StatedFiles> files;  // nothing: made by an earlier version
   bool sealed = false;               // it carries its own digest, and that is right (solver/output/seal.hpp)

@@ -118,6 +118,15 @@ Json json_power_law(const Run& run) {
   return {{"factor", fit->factor}, {"exponent", fit->exponent}, {"begin", window.begin}, {"end", window.end}};
 }
 
+// What a reader of the energy curves needs: how each counts and what it is called.
+Json json_ledger(const Run& run) {
+  Json terms = Json::array();
+  for (const LedgerTerm& term : run.facts.ledger)
+    terms.push_back(
+        {{"name", term.name}, {"kind", term.kind}, {"never_gains", term.never_gains}, {"label", term.label}});
+  return terms;
+}
+
 Json json_scene(const Scene& scene) {
   Json json{{"title", scene.title},
             {"tank", scene.tank},
@@ -158,6 +167,7 @@ std::string curves_json(const Evaluation& evaluation) {
     return Json{{"scene", json_scene(run.scene)},
                 {"directory", run.directory.string()},
                 {"curves", json_curves(run)},
+                {"ledger", json_ledger(run)},
                 {"power_law", json_power_law(run)}};
   };
   Json json{{"runs", Json::object()}, {"records", Json::object()}, {"peers", Json::object()}};

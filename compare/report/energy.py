@@ -1,4 +1,6 @@
-"""Where the energy of a run goes: one plot a run, from the budget that granvof-compare reads off its series."""
+"""Where the energy of a run goes: one plot a run, of every term of the ledger that its run.json states."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -6,39 +8,64 @@ from report import style
 from report.results import arrays
 from report.style import plt
 
-LOSSES = [("friction", "contact friction", style.BLUE), ("drag", "drag", style.ORANGE),
-          ("collisions", "collisions", style.GREEN), ("viscosity", "fluid viscosity, LES", style.SKY),
-          ("numerical_momentum", "numerics: momentum transport", style.PURPLE),
-          ("numerical_time", "numerics: implicit steps", style.YELLOW)]
-LINES = [("numerical_volume", "numerics: volume transport", style.RED, "--"),
-         ("numerical_granular", "numerics: stress against $\\Theta$", style.BLACK, ":"),
-         ("dilatancy", "work of $P_s^{EF}$", style.GREEN, "-."),
-         ("open", "not accounted for", style.BLACK, "-")]
+
+@dataclass
+class Term:
+    label: str
+    time: np.ndarray
+    energy: np.ndarray  # [J]
+
+
+@dataclass
+class Drawn:
+    stored: list  # changes of what is stored
+    stacked: list  # losses that never gain
+    lines: list  # losses of either sign
+    rest: Term  # what all of these do not make up
+
+
+def drawn(entry):
+    """Every term of the budget, each once: their sum is the rest. None for a run that keeps no ledger."""
+    ledger = entry.get("ledger", [])
+    curves = {term["name"]: arrays(entry, f"energy:{term['name']}") for term in ledger}
+    rest = arrays(entry, "energy:open")
+    if not ledger or rest is None or any(curve is None for curve in curves.values()):
+        return None
+
+    def terms(chosen):
+        return [Term(term["label"], *curves[term["name"]]) for term in ledger
+                if term["kind"] not in ("part", "residual") and chosen(term)]
+
+    return Drawn(terms(lambda term: term["kind"] == "stored"),
+                 terms(lambda term: term["kind"] != "stored" and term["never_gains"]),
+                 terms(lambda term: term["kind"] != "stored" and not term["never_gains"]),
+                 Term(next(term["label"] for term in ledger if term["kind"] == "residual"), *rest))
 
 
 def energy_plot(results, run, directory):
     """Left: what is stored, as changes. Right: where it went, losses stacked, what may have either sign as lines."""
-    curves = {name.removeprefix("energy:"): arrays(results.curves[run], name)
-              for name in results.curves[run]["curves"] if name.startswith("energy:")}
-    if "open" not in curves or not any(np.abs(y).max() > 0 for _, y in curves.values()):
+    entry = results.curves[run]
+    shown = drawn(entry)
+    if shown is None or not any(np.abs(term.energy).max() > 0 for term in shown.stored + shown.stacked + shown.lines):
         return []
-    unit = results.curves[run]["scene"]["time_unit"]
+    unit = entry["scene"]["time_unit"]
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), sharex=True)
-    for (name, label), colour, line in zip([("potential", "potential, all phases"), ("kinetic", "kinetic, both phases"),
-                                            ("granular", "granular"), ("elastic", "elastic, contacts")],
-                                           style.CYCLE, style.LINES):
-        t, y = curves[name]
-        left.plot(t / unit, 1e3 * y, color=colour, linestyle=line, label=label)
+    for term, colour, line in zip(shown.stored, style.CYCLE, style.LINES):
+        left.plot(term.time / unit, 1e3 * term.energy, color=colour, linestyle=line, label=term.label)
     left.set_ylabel("change of stored energy [mJ]")
     style.legend(left)
-    t = curves["open"][0]
-    stacked = [np.maximum(1e3 * curves[name][1], 0.0) for name, _, _ in LOSSES]
-    right.stackplot(t / unit, stacked, colors=[colour for _, _, colour in LOSSES], labels=[label for _, label, _ in LOSSES],
-                    alpha=0.8, linewidth=0)
-    for name, label, colour, line in LINES:
-        right.plot(t / unit, 1e3 * curves[name][1], color=colour, linestyle=line, linewidth=1.1, label=label)
+    colours = plt.get_cmap("tab20").colors
+    used = [term for term in shown.stacked if np.abs(term.energy).max() > 0]
+    if used:
+        right.stackplot(used[0].time / unit, [1e3 * term.energy for term in used], colors=colours,
+                        labels=[term.label for term in used], alpha=0.8, linewidth=0)
+    either = [term for term in shown.lines if np.abs(term.energy).max() > 0]
+    for index, term in enumerate(either):
+        right.plot(term.time / unit, 1e3 * term.energy, color=colours[(len(used) + index) % len(colours)],
+                   linestyle=style.LINES[index % len(style.LINES)], linewidth=1.1, label=term.label)
+    right.plot(shown.rest.time / unit, 1e3 * shown.rest.energy, color=style.BLACK, linewidth=1.1, label=shown.rest.label)
     right.set_ylabel("energy lost (negative: made) [mJ]")
-    right.legend(fontsize=6.5, loc="upper left")
+    right.legend(fontsize=5.5, loc="upper left")
     for axis in (left, right):
         axis.set_xlabel("T [-]" if unit != 1.0 else "t [s]")
         axis.axhline(0, color="0.6", linewidth=0.6)
@@ -49,5 +76,6 @@ def energy_plot(results, run, directory):
 
 def caption(run):
     return (f"{run}: energy budget. Left: changes of what is stored. Right: losses since the start, stacked, with the terms of "
-            "either sign as lines; “not accounted for” is the residual of the solvers. Volume "
-            "transport makes energy in stable layers (upwind fluxes spread grains upwards), in proportion to the cell size.")
+            "either sign as lines; “not accounted for” is what all the others, each measured by itself, do not make up. The "
+            "transport of grains makes energy in stable layers (upwind fluxes spread them upwards), in proportion to the "
+            "cell size.")

@@ -48,10 +48,9 @@ inline PressureAndSlope dense_pressure(double f_s, const GrainsOfCell& cell, con
   return {p.value / length, (p.slope - p.value * falls) / length};
 }
 
-// f_s >= 0. Kinetic and dense parts together are max(P_s^K, P_s^D), with grains at rest max(P_s^K, P_s^D,
-// P_s^W).
-inline PressureAndSlope solid_pressure(double f_s, const GrainsOfCell& cell, const SolidLaw& law) {
-  PressureAndSlope p = elastic_pressure(f_s, law.contact, cell.packing);
+// What grains in motion, or at rest without touching, bear beside the elastic pressure. f_s >= 0. Kinetic and
+// dense parts together are max(P_s^K, P_s^D), with grains at rest max(P_s^K, P_s^D, P_s^W).
+inline PressureAndSlope flow_pressure(double f_s, const GrainsOfCell& cell, const SolidLaw& law) {
   PressureAndSlope flow{cell.resting, 0.0};
   if (cell.theta > 0.0 && f_s > 0.0) {
     const double g0 = law.collisions.g0(f_s), e = cell.e;
@@ -65,13 +64,20 @@ inline PressureAndSlope solid_pressure(double f_s, const GrainsOfCell& cell, con
       if (dense.value > flow.value) flow = dense;
     }
   }
-  p.value += flow.value;
-  p.slope += flow.slope;
-  if (cell.viscous_stress > 0.0) {
-    const PressureAndSlope viscous =
-        viscous_contact_pressure(f_s, law.contact.solid_fraction_max, cell.viscous_stress);
-    p.value += viscous.value;
-    p.slope += viscous.slope;
+  return flow;
+}
+
+inline PressureAndSlope viscous_pressure(double f_s, const GrainsOfCell& cell, const SolidLaw& law) {
+  if (cell.viscous_stress <= 0.0) return {0.0, 0.0};
+  return viscous_contact_pressure(f_s, law.contact.solid_fraction_max, cell.viscous_stress);
+}
+
+// All that grains bear.
+inline PressureAndSlope solid_pressure(double f_s, const GrainsOfCell& cell, const SolidLaw& law) {
+  PressureAndSlope p = elastic_pressure(f_s, law.contact, cell.packing);
+  for (const PressureAndSlope& more : {flow_pressure(f_s, cell, law), viscous_pressure(f_s, cell, law)}) {
+    p.value += more.value;
+    p.slope += more.slope;
   }
   return p;
 }

@@ -29,21 +29,26 @@ constexpr auto limited_difference = [](const double* v, std::ptrdiff_t c, std::p
 };
 
 template <typename Difference>
-void convect(const Grid& grid, const FaceField& u, int d, const Range& faces, Difference difference,
-             Field& acceleration) {
-  const double* v = u[d].data();
+double convect(const Field& mass, const Grid& grid, const FaceField& u, int d, const Range& faces,
+               Difference difference, Field& acceleration) {
+  const double *v = u[d].data(), *m = mass.data();
   double* out = acceleration.data();
   for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = 0.0; });
   const std::ptrdiff_t sd = grid.stride(d);
+  double taken = 0.0;
   for (int e = 0; e < grid.dim; ++e) {
     const std::ptrdiff_t s = grid.stride(e);
     const double inv_h = 1.0 / grid.h[e];
     const double* carrier = u[e].data();
+    const auto add = [=](std::ptrdiff_t c, double w, double slope) {
+      out[c] -= w * inv_h * slope;
+      return m[c] * v[c] * w * inv_h * (slope - 0.5 * (v[c + s] - v[c - s]));
+    };
     if (e == d) {
       const auto along = [&](const Range& r, auto difference_along) {
-        for_each(grid.cells, r, [=](std::ptrdiff_t c) {
+        taken += sum_over(grid.cells, r, [=](std::ptrdiff_t c) {
           const double w = carrier[c];
-          out[c] -= w * inv_h * difference_along(v, c, s, w);
+          return add(c, w, difference_along(v, c, s, w));
         });
       };
       // on sides that the phase passes the ghosts end one face beyond
@@ -55,32 +60,31 @@ void convect(const Grid& grid, const FaceField& u, int d, const Range& faces, Di
       along(last, upwind_difference);
     } else {
       // the carrier component, averaged to the face of d
-      for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
+      taken += sum_over(grid.cells, faces, [=](std::ptrdiff_t c) {
         const double w = 0.25 * (carrier[c] + carrier[c - sd] + carrier[c + s] + carrier[c + s - sd]);
-        out[c] -= w * inv_h * difference(v, c, s, w);
+        return add(c, w, difference(v, c, s, w));
       });
     }
   }
+  return taken;
 }
 
 }  // namespace
 
-void convective_acceleration(const Grid& grid, const FaceField& u, int d, const Range& faces, bool limited,
-                             Field& acceleration) {
-  if (limited) {
-    convect(grid, u, d, faces, limited_difference, acceleration);
-  } else {
-    convect(grid, u, d, faces, upwind_difference, acceleration);
-  }
+double convective_acceleration(const Field& mass, const Grid& grid, const FaceField& u, int d,
+                               const Range& faces, bool limited, Field& acceleration) {
+  return limited ? convect(mass, grid, u, d, faces, limited_difference, acceleration)
+                 : convect(mass, grid, u, d, faces, upwind_difference, acceleration);
 }
 
-void convective_acceleration_limited_in(const Field& mass, double least, const Grid& grid, const FaceField& u,
-                                        int d, const Range& faces, Field& acceleration) {
+double convective_acceleration_limited_in(const Field& mass, double least, const Grid& grid,
+                                          const FaceField& u, int d, const Range& faces,
+                                          Field& acceleration) {
   const double* m = mass.data();
   const auto limited_inside = [=](const double* v, std::ptrdiff_t c, std::ptrdiff_t s, double w) {
     return m[c] > least ? limited_difference(v, c, s, w) : upwind_difference(v, c, s, w);
   };
-  convect(grid, u, d, faces, limited_inside, acceleration);
+  return convect(mass, grid, u, d, faces, limited_inside, acceleration);
 }
 
 void bound_convection(const Grid& grid, const FaceField& u, int d, const Range& faces, double dt,

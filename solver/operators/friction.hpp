@@ -41,10 +41,11 @@ class Friction {
   // the kinetic viscosity dissipates in each cell, an edge's dissipation shared by its cells as their
   // viscosity.
   struct Power {
-    double on_grains = 0.0;  // its force times the velocity u_end, on the faces that hold grains
-    double friction = 0.0;   // dissipated by enduring contacts, >= 0
-    double kinetic = 0.0;    // dissipated by the kinetic viscosity, >= 0: the production of Theta
-    double walls = 0.0;      // given by moving walls
+    double on_grains = 0.0;   // its force times the velocity u_end, on the faces that hold grains
+    double solved_for = 0.0;  // the same with the velocity u
+    double friction = 0.0;    // dissipated by enduring contacts, >= 0
+    double kinetic = 0.0;     // dissipated by the kinetic viscosity, >= 0: the production of Theta
+    double walls = 0.0;       // given by moving walls
   };
   Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end, Field& kinetic);
 

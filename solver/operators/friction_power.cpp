@@ -30,9 +30,13 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
     const double inv_h = 1.0 / grid_.h[d];
     const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(), *end = u_end[d].data(),
                  *mu = normal_viscosity(d);
-    power.on_grains += sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
-      return m[c] != 0.0 ? end[c] * (own[c] * x[c] - y[c]) : 0.0;
-    });
+    const auto work_on = [&](const double* velocity) {
+      return sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
+        return m[c] != 0.0 ? velocity[c] * (own[c] * x[c] - y[c]) : 0.0;
+      });
+    };
+    power.on_grains += work_on(end);
+    power.solved_for += work_on(x);
     double all = 0.0;
     for_each_row(grid_.cells, grid_.all_cells(), [&](std::ptrdiff_t start, int n) {
 #pragma omp simd reduction(+ : all)
@@ -70,6 +74,7 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
     }
   }
   power.on_grains *= grid_.cell_volume;
+  power.solved_for *= grid_.cell_volume;
   power.kinetic = grid_.cell_volume *
                   sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return spent[c]; });
   power.friction = std::max(total * grid_.cell_volume - power.kinetic, 0.0);

@@ -70,18 +70,24 @@ GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, c
       rhs_(grid),
       collisions_(grid),
       drag_(grid),
-      excess_(grid) {}
+      pressure_(grid),
+      excess_(grid),
+      spared_(grid) {}
 
 // (f_s Theta) carried by the solid flux, upwind: a convex combination of old values, so Theta stays positive.
-void GranularTemperature::convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                                  const FaceField& flux_s, Field& theta_new) const {
+double GranularTemperature::convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
+                                    const FaceField& flux_s, Field& theta_new) const {
   const double *f = f_s.data(), *f_new = f_s_new.data(), *t = theta.data();
   double* out = theta_new.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
   subtract_upwind_divergence(grid_, dt, flux_s, theta, theta_new);
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    out[c] = f_new[c] >= least_solid_fraction ? std::max(out[c] / f_new[c], 0.0) : 0.0;
+  const double held = sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+    const bool grains = f_new[c] >= least_solid_fraction;
+    const double of_cell = out[c];
+    out[c] = grains ? std::max(of_cell / f_new[c], 0.0) : 0.0;
+    return grains ? 0.0 : of_cell;
   });
+  return 1.5 * scene_.solid.density * grid_.cell_volume * held;
 }
 
 // Implicit conduction, kappa of the old level: 3/2 f_s rho_s dTheta/dt = div(f_s kappa grad Theta).
@@ -189,22 +195,22 @@ void GranularTemperature::predict(double dt, const Field& theta, const Field& f_
 
 // The local balance with its production known: one positive root w, so Theta stays positive. Pressure work is
 // that of the old Theta, which is what the momentum felt; where the grains expand by more than they hold, the
-// rest of it came from nowhere (numerical_granular of the energy budget). The algebraic form drops the time
+// rest of it came from nowhere (`spared` of GranularLosses). The algebraic form drops the time
 // term, and takes the work of the new Theta where it is a loss.
-GranularLosses GranularTemperature::balance(double dt, const Field& theta, const Field& f_s_new,
-                                            const Field& beta, const Field& restitution,
+GranularLosses GranularTemperature::balance(double dt, const Field& theta, const Field& f_s,
+                                            const Field& f_s_new, const Field& beta, const Field& restitution,
                                             const StrainRate& strain, const Field& production,
                                             Field& theta_new) {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
   const LocalBalances at(scene_, laws_, wall_loss_, f_s_new, beta, restitution, strain);
-  const double *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
+  const double *f0 = f_s.data(), *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
   double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
-         *excess = excess_.data();
+         *pressed = pressure_.data(), *excess = excess_.data(), *spared = spared_.data();
   for_each(grid_.cells, [=, &at](std::ptrdiff_t c) {
-    collided[c] = dragged[c] = 0.0;
+    collided[c] = dragged[c] = pressed[c] = spared[c] = 0.0;
     if (f[c] < least_collisional_fraction) {
-      excess[c] = 1.5 * f[c] * rho_s * t[c] + dt * produced[c];
+      excess[c] = 1.5 * (steady ? f0[c] : f[c]) * rho_s * t[c] + dt * produced[c];
       t[c] = 0.0;
       return;
     }
@@ -219,6 +225,8 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
       held += inertia * t[c] + gain - b.work * old[c];
     }
     const double w = closures::cubic_root(b.collisions, inertia + decay, std::max(held, 0.0));
+    pressed[c] = dt * (steady ? std::max(b.work, 0.0) * w * w : b.work * old[c]);
+    spared[c] = steady ? 1.5 * rho_s * (f[c] * w * w - f0[c] * old[c]) : dt * std::max(-held, 0.0);
     t[c] = std::min(w * w, bound);
     excess[c] = 1.5 * f[c] * rho_s * (w * w - t[c]);
     collided[c] = dt * ((b.collisions * w + loss) * w * w - (steady ? 0.0 : gain));
@@ -229,24 +237,28 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
     return grid_.cell_volume *
            sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return l[c]; });
   };
-  return {total(collisions_), total(drag_), total(excess_)};
+  return {total(collisions_), total(drag_), total(pressure_), total(excess_), 0.0, total(spared_)};
 }
 
 GranularLosses GranularTemperature::advance(double dt, const Field& theta, const Field& f_s,
                                             const Field& f_s_new, const FaceField& flux_s, const Field& beta,
                                             const Rheology& rheology, const StrainRate& strain,
                                             const Field& production, Field& theta_new) {
+  double run_out = 0.0;
   switch (scene_.model.granular_temperature) {
     case TemperatureModel::off:
       return {};  // Theta stays zero
     case TemperatureModel::transported:
-      convect(dt, theta, f_s, f_s_new, flux_s, theta_new);
+      run_out = convect(dt, theta, f_s, f_s_new, flux_s, theta_new);
       conduct(dt, f_s_new, rheology, theta_new);
       break;
     case TemperatureModel::algebraic:
       break;
   }
-  return balance(dt, theta, f_s_new, beta, rheology.restitution, strain, production, theta_new);
+  GranularLosses losses =
+      balance(dt, theta, f_s, f_s_new, beta, rheology.restitution, strain, production, theta_new);
+  losses.run_out = run_out;
+  return losses;
 }
 
 }  // namespace granvof

@@ -20,7 +20,11 @@ namespace granvof {
 struct GranularLosses {
   double collisions = 0.0;  // gamma_s^K of (23), and what bumps of walls take
   double drag = 0.0;        // 3 beta Theta
+  double pressure = 0.0;    // P_s^K div u_s: what Theta pays for the work of the kinetic pressure
   double bounds = 0.0;      // taken away by the two stated bounds on Theta, see granular_temperature.cpp
+  double run_out = 0.0;     // held where no grains are left to hold it
+  double spared = 0.0;      // not taken where it should have lost more than it held; of a Theta in steady
+                            // balance all that it gained
 };
 
 class GranularTemperature {
@@ -41,12 +45,13 @@ class GranularTemperature {
                          const StrainRate& strain, const Field& production, Field& theta_new);
 
  private:
-  void convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new, const FaceField& flux_s,
-               Field& theta_new) const;
+  // Returns what was held where no grains are left [J].
+  double convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
+                 const FaceField& flux_s, Field& theta_new) const;
   void conduct(double dt, const Field& f_s_new, const Rheology& rheology, Field& theta_new);
-  GranularLosses balance(double dt, const Field& theta, const Field& f_s_new, const Field& beta,
-                         const Field& restitution, const StrainRate& strain, const Field& production,
-                         Field& theta_new);
+  GranularLosses balance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
+                         const Field& beta, const Field& restitution, const StrainRate& strain,
+                         const Field& production, Field& theta_new);
 
   const Grid& grid_;
   const Scene& scene_;
@@ -56,7 +61,7 @@ class GranularTemperature {
   linear::ScalarSolver solver_;
   FaceField conductivity_;
   Field kappa_, mass_, rhs_;
-  Field collisions_, drag_, excess_;  // losses of the step [J/m3]
+  Field collisions_, drag_, pressure_, excess_, spared_;  // of the step, as in GranularLosses [J/m3]
 };
 
 }  // namespace granvof

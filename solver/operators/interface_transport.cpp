@@ -127,16 +127,20 @@ void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alph
   limit_corrections(dt, f_c_end);
   grid_.for_each_open_side([&](int d, bool upper) {
     const double *q = flux_c[d].data(), *corr = correction_[d].data();
-    double* liquid = passed_.through[d].data();
     const std::ptrdiff_t s = grid_.stride(d);
     const Range faces = grid_.side_faces(d, upper);
     passed_.left[2 * d + (upper ? 1 : 0)] += (upper ? dt : -dt) * grid_.cell_volume / grid_.h[d] *
                                              sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
                                                return q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c];
                                              });
-    for_each(grid_.cells, faces,
-             [=](std::ptrdiff_t c) { liquid[c] += dt * (q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c]); });
   });
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double *q = flux_c[d].data(), *corr = correction_[d].data();
+    double* liquid = passed_.through[d].data();
+    const std::ptrdiff_t s = grid_.stride(d);
+    for_each(grid_.cells, grid_.flux_faces(d),
+             [=](std::ptrdiff_t c) { liquid[c] += dt * (q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c]); });
+  }
   subtract_divergence(grid_, dt, correction_, liquid_);
   const double* fc_end = f_c_end.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
@@ -145,8 +149,8 @@ void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alph
   });
 }
 
-const SideLiquid& InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s,
-                                              const FaceField& flux_c, Field& alpha_new) {
+const LiquidPassed& InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s,
+                                                const FaceField& flux_c, Field& alpha_new) {
   passed_.clear(grid_);
   if (plic_) {
     plic_->advance(dt, alpha, f_s, flux_c, alpha_new, passed_);

@@ -19,9 +19,9 @@ class InterfaceTransport {
   InterfaceTransport(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // In: alpha and f_s of the old level (two ghost layers filled), flux_c [m/s]. Out: alpha of the new level.
-  // Returns what passed the sides, valid until the next call.
-  const SideLiquid& advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
-                            Field& alpha_new);
+  // Returns what passed the faces, valid until the next call.
+  const LiquidPassed& advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
+                              Field& alpha_new);
 
  private:
   int substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c);
@@ -36,7 +36,7 @@ class InterfaceTransport {
   Field liquid_, f_c_, f_c_end_, courant_, gain_, loss_;
   FaceField slope_;       // grad alpha, component by component
   FaceField correction_;  // CICSAM flux minus upwind flux [m/s]
-  SideLiquid passed_;
+  LiquidPassed passed_;
   std::optional<PlicTransport> plic_;
 };
 

@@ -71,7 +71,7 @@ PlicTransport::PlicTransport(const Grid& grid, const Boundary& boundary)
     : grid_(grid), boundary_(boundary), f_c_(grid), flux_(grid) {}
 
 // One direction: alpha and f_c_ are both brought over the sweep.
-void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alpha, SideLiquid& passed) {
+void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alpha, LiquidPassed& passed) {
   boundary_.fill_liquid_share(alpha, flux_c);
   boundary_.fill_scalar(f_c_);
   const std::ptrdiff_t s = grid_.stride(d);
@@ -105,13 +105,13 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
     passed.left[2 * d + (upper ? 1 : 0)] +=
         (upper ? dt_h : -dt_h) * grid_.cell_volume *
         sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) { return liquid[c]; });
-    double* through = passed.through[d].data();
-    for_each(grid_.cells, faces, [=](std::ptrdiff_t c) { through[c] += dt * liquid[c]; });
   }
+  double* through = passed.through[d].data();
+  for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) { through[c] += dt * liquid[c]; });
 }
 
 void PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
-                            Field& alpha_new, SideLiquid& passed) {
+                            Field& alpha_new, LiquidPassed& passed) {
   const double courant = outflow_courant(grid_, dt, f_s, true, 0.0, flux_c);
   const int parts = std::max(1, static_cast<int>(std::ceil(courant / largest_courant)));
   const double part = dt / parts;

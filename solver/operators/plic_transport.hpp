@@ -11,8 +11,8 @@
 #pragma once
 
 #include "solver/grid/boundary.hpp"
+#include "solver/operators/liquid_passed.hpp"
 #include "solver/operators/plane_in_cell.hpp"
-#include "solver/operators/side_liquid.hpp"
 
 namespace granvof {
 
@@ -21,12 +21,12 @@ class PlicTransport {
   PlicTransport(const Grid& grid, const Boundary& boundary);
 
   // In: alpha and f_s of the old level (ghosts filled), flux_c [m/s]. Out: alpha of the new level.
-  // What passes the sides is added to `passed`.
+  // What passes the faces is added to `passed`.
   void advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new,
-               SideLiquid& passed);
+               LiquidPassed& passed);
 
  private:
-  void sweep(int d, double dt, const FaceField& flux_c, Field& alpha, SideLiquid& passed);
+  void sweep(int d, double dt, const FaceField& flux_c, Field& alpha, LiquidPassed& passed);
 
   const Grid& grid_;
   const Boundary& boundary_;

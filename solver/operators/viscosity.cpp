@@ -65,7 +65,53 @@ void FluidViscosity::add_acceleration(const FaceField& u_c, const FaceInertia& i
   }
 }
 
-FluidViscosity::Power FluidViscosity::power(const Boundary& boundary) const {
+double FluidViscosity::power_on(const FaceField& u_c, const FaceInertia& inertia, int d, const Field& without,
+                                const Field& with) const {
+  const double *v = u_c[d].data(), *m = inertia.fluid[d].data(), *a = without.data(), *b = with.data();
+  const auto power = [=](std::ptrdiff_t c) { return m[c] * v[c] * (b[c] - a[c]); };
+  double total = sum_over(grid_.cells, grid_.inner_faces(d), power);
+  for (const bool upper : {false, true})
+    if (grid_.side(d, upper).passes_fluid)
+      total += 0.5 * sum_over(grid_.cells, grid_.side_faces(d, upper), power);
+  return total * grid_.cell_volume;
+}
+
+// Stress on a side times the velocity there. Where that velocity is given, no momentum is solved of the half
+// cell behind it: the side gives what its shear takes, too.
+double FluidViscosity::power_on_side(const FaceField& u_c, int d, bool upper) const {
+  const bool solved = grid_.side(d, upper).passes_fluid;
+  const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, outside = upper ? 0 : -s;
+  const Range faces = grid_.side_faces(d, upper);
+  const double *mu = viscosity_.data(), *v = u_c[d].data();
+  const double sign = upper ? 1.0 : -1.0, inv_h = 1.0 / grid_.h[d];
+  double power =
+      sign * inv_h * sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
+        const auto normal = [=](std::ptrdiff_t cell) {
+          return 2.0 * mu[cell] * (v[cell + s] - v[cell]) * inv_h;
+        };
+        return v[c] * (solved ? 0.5 * (normal(c + inside) + normal(c + outside)) : normal(c + inside));
+      });
+  for (int e = 0; e < grid_.dim; ++e) {
+    if (e == d) continue;
+    const std::ptrdiff_t t = grid_.stride(e);
+    const double *w = u_c[e].data(), *g = strain_.shear[plane_index(std::min(d, e), std::max(d, e))].data();
+    const auto stress = [=](std::ptrdiff_t edge) { return edge_mean(mu, edge, s, t) * g[edge]; };
+    Range edges = grid_.inner_faces(e);
+    edges.lower[d] = faces.lower[d];
+    edges.upper[d] = faces.upper[d];
+    power += sign * inv_h * sum_over(grid_.cells, edges, [=](std::ptrdiff_t c) {
+               return 0.5 * (w[c] + w[c - s]) * stress(c);
+             });
+    if (solved) continue;
+    const double inv_he = 1.0 / grid_.h[e];
+    power -= 0.5 * inv_he * sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
+               return v[c] * (stress(c + t) - stress(c));
+             });
+  }
+  return power * grid_.cell_volume;
+}
+
+FluidViscosity::Power FluidViscosity::power(const Boundary& boundary, const FaceField& u_c) const {
   const double *mu = viscosity_.data(), *normal = strain_.normal_squared.data();
   Power power;
   power.dissipation =
@@ -85,6 +131,7 @@ FluidViscosity::Power FluidViscosity::power(const Boundary& boundary) const {
   }
   power.dissipation *= grid_.cell_volume;
   power.walls = wall_power(grid_, boundary, stress);
+  grid_.for_each_open_side([&](int d, bool upper) { power.sides += power_on_side(u_c, d, upper); });
   return power;
 }
 

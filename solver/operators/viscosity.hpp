@@ -21,17 +21,28 @@ class FluidViscosity {
   void add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d, const Range& faces,
                         Field& acceleration) const;
 
+  // Power [W] of that force on component d: of what `with` has beyond `without` [m/s2]. Half a cell moves
+  // with a face of a side.
+  double power_on(const FaceField& u_c, const FaceInertia& inertia, int d, const Field& without,
+                  const Field& with) const;
+
   // f_c (mu_c + mu_t) of the cells [Pa s], ghosts filled.
   const Field& of_cells() const { return viscosity_; }
 
-  // Power [W] of that stress at the velocity of the last update.
+  // Takes the strain of a velocity whose ghosts are filled; the viscosity stays.
+  void set_strain(const FaceField& u_c) { strain_.update(grid_, u_c); }
+
+  // Power [W] of that stress at the velocity of the strain.
   struct Power {
     double dissipation = 0.0;  // int 2 f_c (mu_c + mu_t) S:S dV, LES included
     double walls = 0.0;        // given by moving walls
+    double sides = 0.0;        // given on the sides through which something flows
   };
-  Power power(const Boundary& boundary) const;
+  Power power(const Boundary& boundary, const FaceField& u_c) const;
 
  private:
+  double power_on_side(const FaceField& u_c, int d, bool upper) const;
+
   const Grid& grid_;
   const Scene& scene_;
   StrainRate strain_;

@@ -76,6 +76,20 @@ ordered_json files_json(const FilesWritten& files) {
             {"sha256", files.fields_sha256.empty() ? ordered_json() : ordered_json(files.fields_sha256)}}}};
 }
 
+ordered_json ledger_json(const std::vector<LedgerTerm>& ledger) {
+  ordered_json terms = ordered_json::array();
+  for (const LedgerTerm& term : ledger) {
+    terms.push_back({{"name", term.name},
+                     {"kind", term.kind},
+                     {"sign", term.sign},
+                     {"never_gains", term.never_gains},
+                     {"label", term.label},
+                     {"meaning", term.meaning},
+                     {"measured_in", term.measured_in}});
+  }
+  return terms;
+}
+
 ordered_json host_json() {
   const auto host = host_facts();
   const auto& build = build_info();
@@ -126,6 +140,7 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
   json["liquid_volume_error"] = progress.liquid_volume_error;
   json["solid_fraction_max"] = progress.solid_fraction_max;
   json["monitors"] = progress.monitors;
+  if (!record.start.ledger.empty()) json["ledger"] = ledger_json(record.start.ledger);
   json["warnings"] = ordered_json::array();
   for (const Warning& w : progress.warnings) {
     json["warnings"].push_back({{"monitor", w.monitor},

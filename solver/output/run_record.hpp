@@ -20,6 +20,15 @@ inline constexpr int output_contract_version = 1;
 
 enum class ExitState { running, finished, failed, stopped };
 
+// A term of the energy ledger of the program, as its readers need it: how a column of series.csv counts.
+struct LedgerTerm {
+  std::string name;  // of the column
+  std::string kind;  // stored, dissipated, outside, numerical, part, residual
+  int sign = 0;      // of the column in the sum of changes and losses that vanishes but for the residual
+  bool never_gains = false;
+  std::string label, meaning, measured_in;
+};
+
 // Why a run failed or was stopped, for programs: `exit.kind` of run.json, whose names are those of name_of().
 enum class ExitKind {
   step_collapse,     // no step above dt_min was accepted
@@ -38,7 +47,8 @@ struct RunStart {
   std::string program;  // "granvof" or "demvof"
   std::string command;  // the command line
   int ranks = 1;
-  int threads = 1;  // of each rank
+  int threads = 1;                 // of each rank
+  std::vector<LedgerTerm> ledger;  // empty: the program keeps none
 };
 
 // A monitor that passed its limit.

@@ -7,22 +7,12 @@
 namespace granvof {
 namespace {
 
-// visit(name, field) for every field of the state; the one list both directions use.
+// visit(name, field) for every field of the state.
 template <typename StateType, typename Visit>
 void for_each_field(const Grid& grid, StateType& s, Visit&& visit) {
-  visit("f_s", s.f_s);
-  visit("alpha", s.alpha);
-  visit("p_c", s.p_c);
-  visit("p_s", s.p_s);
-  visit("theta", s.theta);
-  visit("phi", s.phi);
-  visit("packing", s.packing);
-  for (int d = 0; d < grid.dim; ++d) {
-    const std::string index = std::to_string(d);
-    visit("u_s" + index, s.u_s[d]);
-    visit("u_c" + index, s.u_c[d]);
-    visit("u_strain" + index, s.u_strain[d]);
-  }
+  for (const CellQuantity& q : cell_quantities) visit(q.key, s.*q.field);
+  for (const FaceQuantity& q : face_quantities)
+    for (int d = 0; d < grid.dim; ++d) visit(q.key + std::to_string(d), (s.*q.field)[d]);
 }
 
 template <typename Counters, typename Visit>

@@ -1,97 +1,194 @@
-// The terms of the energy budget and their names.
+// The terms of the energy budget: the one table of what each is called, means, and where it is measured.
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 
 namespace granvof {
 
 // Energies of a state and what changed them, all in J. Stored energies are those of the present state, all
-// other terms add up over the steps. A loss is positive when the flow loses energy by it. The budget is
-//   change of (kinetic + potential + granular + elastic)
-//     = walls + dilatancy + shear_dilatancy - outflow - drag - friction - viscosity - collisions -
-//     sum(numerical) + residual.
+// other terms add up over the steps. Every term is measured by itself, from the fluxes and forces of the
+// operator it belongs to; none is what the others leave, but the residual:
+//   residual = change of (kinetic + potential + granular + elastic)
+//              - walls - dilatancy - shear_dilatancy + outflow + drag + friction + viscosity + collisions
+//              + sum(numerical).
+// A loss is positive when the flow loses energy by it. Numerical terms are what a scheme does beside the
+// physical work of its operator; see energy_terms below and docs/theory/energy.md.
 struct EnergyTerms {
-  double kinetic = 0.0;    // of the mean motion of both phases, on faces
-  double potential = 0.0;  // of solid, liquid and gas above the floor
-  double granular = 0.0;   // 3/2 f_s rho_s Theta
-  double elastic = 0.0;    // stored by the contact pressure (13)
-
-  double drag = 0.0;        // beta |u_s - u_c|^2, and 3 beta Theta
-  double friction = 0.0;    // Coulomb stress (17)
-  double viscosity = 0.0;   // of the fluid, LES included
-  double collisions = 0.0;  // gamma_s of (23)
-  // Carried out through the sides, less the work of the pressure on them, and of gravity along periodic
-  // directions, which have no potential: negative where a flow is driven from outside.
-  double outflow = 0.0;
-  double walls = 0.0;      // given by moving walls (a gain)
-  double dilatancy = 0.0;  // work of P_s^EF (14), which (7) does not charge to Theta (a gain)
-
-  // Given to the contacts by shear that dilates the bed: what friction takes for it by tan(psi) (a gain).
-  double shear_dilatancy = 0.0;
-
-  double numerical_time = 0.0;      // implicit steps: 1/2 m |u^{n+1} - u^n|^2
-  double numerical_momentum = 0.0;  // upwind momentum, mass that crosses faces without it, explicit viscosity
-  // Upwind solid and liquid. The flux of f_s is that of the face's mean less |u| / 2 times the jump across
-  // the face, a diffusion: gravity works on the mean mass of the face, and what is spread stays lifted where
-  // heavy lies below light. So it is negative (energy made) in stable layers, as the top of a bed is: -g
-  // (rho_s - rho_l) |u| / 2 times the jump. It vanishes with the cell: s1 to T = 10, -0.165, -0.082, -0.038,
-  // -0.017 J/m on 5, 2.5, 1.25, 0.625 mm.
-  double numerical_volume = 0.0;
-  double numerical_stress = 0.0;    // friction at the velocity before the pressure step; elastic pressure
-  double numerical_granular = 0.0;  // lag between kinetic stress and Theta, and the bounds on Theta
-  double theta_bounds = 0.0;        // of which the bounds on Theta alone
-  double residual = 0.0;            // what solvers left: momentum and continuity not met
+  double kinetic = 0.0, potential = 0.0, granular = 0.0, elastic = 0.0;
+  double drag = 0.0, friction = 0.0, viscosity = 0.0, collisions = 0.0, outflow = 0.0;
+  double walls = 0.0, dilatancy = 0.0, shear_dilatancy = 0.0;
+  double numerical_time = 0.0, numerical_momentum = 0.0, numerical_solid = 0.0, numerical_fluid = 0.0;
+  double numerical_viscosity = 0.0, numerical_stress = 0.0, numerical_elastic = 0.0;
+  double numerical_granular = 0.0;
+  double upwind_momentum = 0.0, theta_bounds = 0.0;
+  double residual = 0.0;
 
   double stored() const { return kinetic + potential + granular + elastic; }
   double physical() const { return drag + friction + viscosity + collisions; }
-  double numerical() const {
-    return numerical_time + numerical_momentum + numerical_volume + numerical_stress + numerical_granular;
-  }
+  double in_motion() const { return kinetic + granular; }
+  double numerical() const;            // the sum of the numerical terms
+  double numerical_magnitude() const;  // of their magnitudes
+  // What came from nowhere: every numerical term that is a gain, and the work of solid pressure that nothing
+  // pays for. What one scheme takes does not make up for what another gives.
+  double created() const;
+  // Stored less what the terms put there: what is not accounted for of a step that began at `before` [J].
+  double left_by(const EnergyTerms& before) const;
   // Takes the terms of a step that led from the present state.
   void add(const EnergyTerms& step);
 };
 
-struct EnergyTerm {
-  const char* name;
-  double EnergyTerms::*value;
-  const char* meaning;
+enum class EnergyKind {
+  stored,      // of the present state
+  dissipated,  // by the physics of the model
+  outside,     // passes the sides, or what nothing inside pays for
+  numerical,   // what a scheme adds
+  part,        // of another term
+  residual,
 };
 
-// Every term; the first `stored_energy_terms` are stored, the others add up.
+constexpr const char* name_of(EnergyKind kind) {
+  constexpr std::array names{"stored", "dissipated", "outside", "numerical", "part", "residual"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+struct EnergyTerm {
+  const char* name;  // column of series.csv, key of run.json
+  double EnergyTerms::*value;
+  EnergyKind kind;
+  int sign;                 // in the sum of changes and losses that vanishes but for the residual
+  bool never_gains;         // a loss by its form
+  const char* label;        // in figures
+  const char* meaning;      // one line
+  const char* measured_in;  // the file that measures it
+};
+
+// Every term; the stored ones come first.
 inline constexpr int stored_energy_terms = 4;
 inline constexpr std::array energy_terms{
-    EnergyTerm{"energy_kinetic", &EnergyTerms::kinetic, "kinetic energy of the mean motion, both phases"},
-    EnergyTerm{"energy_potential", &EnergyTerms::potential, "potential energy of all phases above the floor"},
-    EnergyTerm{"energy_granular", &EnergyTerms::granular, "fluctuation energy of the grains"},
-    EnergyTerm{"energy_elastic", &EnergyTerms::elastic, "energy stored by the contact pressure"},
-    EnergyTerm{"lost_drag", &EnergyTerms::drag, "dissipated by drag so far"},
-    EnergyTerm{"lost_friction", &EnergyTerms::friction, "dissipated by contact friction so far"},
-    EnergyTerm{"lost_viscosity", &EnergyTerms::viscosity,
-               "dissipated by the fluid's viscosity so far, LES included"},
-    EnergyTerm{"lost_collisions", &EnergyTerms::collisions, "dissipated by collisions so far"},
-    EnergyTerm{"lost_outflow", &EnergyTerms::outflow,
-               "carried out through the sides so far, net of what drives the flow from outside"},
-    EnergyTerm{"gained_walls", &EnergyTerms::walls, "given by moving walls so far"},
-    EnergyTerm{"gained_dilatancy", &EnergyTerms::dilatancy, "work of P_s^EF so far, not charged to Theta"},
-    EnergyTerm{"gained_shear_dilatancy", &EnergyTerms::shear_dilatancy,
-               "given to the contacts by shear that dilates the bed so far"},
-    EnergyTerm{"lost_numerical_time", &EnergyTerms::numerical_time, "lost to implicit time steps so far"},
-    EnergyTerm{"lost_numerical_momentum", &EnergyTerms::numerical_momentum,
-               "lost to momentum transport so far"},
-    EnergyTerm{"lost_numerical_volume", &EnergyTerms::numerical_volume, "lost to volume transport so far"},
-    EnergyTerm{"lost_numerical_stress", &EnergyTerms::numerical_stress,
-               "lost to the splitting of the stress so far"},
-    EnergyTerm{"lost_numerical_granular", &EnergyTerms::numerical_granular,
-               "lost between stress and Theta so far, bounds included"},
-    EnergyTerm{"theta_bounds_took", &EnergyTerms::theta_bounds, "of which taken by the bounds on Theta"},
-    EnergyTerm{"energy_residual", &EnergyTerms::residual,
-               "left by the solvers so far: the budget closes up to it"},
+    EnergyTerm{"energy_kinetic", &EnergyTerms::kinetic, EnergyKind::stored, 1, false, "kinetic, both phases",
+               "kinetic energy of the mean motion, both phases, on faces", "solver/run/energy_faces.cpp"},
+    EnergyTerm{"energy_potential", &EnergyTerms::potential, EnergyKind::stored, 1, false,
+               "potential, all phases", "potential energy of solid, liquid and gas above the floor",
+               "solver/run/energy_budget.cpp"},
+    EnergyTerm{"energy_granular", &EnergyTerms::granular, EnergyKind::stored, 1, false, "granular",
+               "fluctuation energy of the grains, 3/2 f_s rho_s Theta", "solver/run/energy_budget.cpp"},
+    EnergyTerm{"energy_elastic", &EnergyTerms::elastic, EnergyKind::stored, 1, false, "elastic, contacts",
+               "stored by the contact pressure (13)", "solver/run/energy_pressure.cpp"},
+    EnergyTerm{"lost_drag", &EnergyTerms::drag, EnergyKind::dissipated, 1, true, "drag",
+               "dissipated by drag so far: beta |u_s - u_c|^2, and 3 beta Theta",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"lost_friction", &EnergyTerms::friction, EnergyKind::dissipated, 1, true, "contact friction",
+               "dissipated by contact friction (17) so far", "solver/operators/friction_power.cpp"},
+    EnergyTerm{"lost_viscosity", &EnergyTerms::viscosity, EnergyKind::dissipated, 1, true,
+               "fluid viscosity, LES", "dissipated by the fluid's viscosity so far, LES included",
+               "solver/operators/viscosity.cpp"},
+    EnergyTerm{"lost_collisions", &EnergyTerms::collisions, EnergyKind::dissipated, 1, true, "collisions",
+               "dissipated by collisions (23) so far", "solver/operators/granular_temperature.cpp"},
+    EnergyTerm{"lost_outflow", &EnergyTerms::outflow, EnergyKind::outside, 1, false, "carried out, net",
+               "carried out through the sides so far, less the work of the pressure on them and of gravity "
+               "along periodic directions",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"gained_walls", &EnergyTerms::walls, EnergyKind::outside, -1, false, "moving walls",
+               "given by moving walls so far", "solver/operators/stress_power.hpp"},
+    EnergyTerm{"gained_dilatancy", &EnergyTerms::dilatancy, EnergyKind::outside, -1, false,
+               "uncharged solid pressure",
+               "work of the solid pressure so far that nothing pays for: of P_s^EF (14), which (7) does not "
+               "charge to Theta",
+               "solver/run/energy_pressure.cpp"},
+    EnergyTerm{"gained_shear_dilatancy", &EnergyTerms::shear_dilatancy, EnergyKind::outside, -1, false,
+               "shear dilatancy",
+               "given to the contacts so far by shear that dilates the bed: what friction takes by tan(psi)",
+               "solver/run/time_step.cpp"},
+    EnergyTerm{"lost_numerical_time", &EnergyTerms::numerical_time, EnergyKind::numerical, 1, true,
+               "numerics: implicit steps", "lost to implicit time steps so far: 1/2 m |u^{n+1} - u^n|^2",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"lost_numerical_momentum", &EnergyTerms::numerical_momentum, EnergyKind::numerical, 1, false,
+               "numerics: momentum transport",
+               "lost to momentum transport so far: upwind differences, and mass that crosses faces without "
+               "its momentum",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"lost_numerical_solid", &EnergyTerms::numerical_solid, EnergyKind::numerical, 1, false,
+               "numerics: transport of grains",
+               "lost so far to what the flux of grains adds to the mean of a face, |u| h / 2 times the "
+               "gradient of f_s where it is upwind, against gravity and fluid pressure",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"lost_numerical_fluid", &EnergyTerms::numerical_fluid, EnergyKind::numerical, 1, false,
+               "numerics: transport of liquid and gas",
+               "lost so far to what the fluxes of liquid and gas add to the mean of a face, against gravity "
+               "and fluid pressure",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"lost_numerical_viscosity", &EnergyTerms::numerical_viscosity, EnergyKind::numerical, 1, false,
+               "numerics: viscous steps",
+               "lost so far to viscous forces of one velocity that work on another",
+               "solver/run/energy_faces.cpp"},
+    EnergyTerm{"lost_numerical_stress", &EnergyTerms::numerical_stress, EnergyKind::numerical, 1, false,
+               "numerics: split solid stress",
+               "lost so far to solid stresses of the velocity before the pressure step that work on the one "
+               "after it",
+               "solver/operators/friction_power.cpp"},
+    EnergyTerm{
+        "lost_numerical_elastic", &EnergyTerms::numerical_elastic, EnergyKind::numerical, 1, false,
+        "numerics: contact pressure",
+        "what the elastic pressure took from the motion so far and the contacts do not store: the flux "
+        "of grains beside the mean of a face, and implicit steps",
+        "solver/run/energy_pressure.cpp"},
+    EnergyTerm{"lost_numerical_granular", &EnergyTerms::numerical_granular, EnergyKind::numerical, 1, false,
+               "numerics: $\\Theta$",
+               "lost so far by Theta at its bounds and where grains run out, less what it was spared where "
+               "they expand by more than they hold; all changes of a Theta in steady balance",
+               "solver/operators/granular_temperature.cpp"},
+    EnergyTerm{"upwind_momentum_took", &EnergyTerms::upwind_momentum, EnergyKind::part, 0, false,
+               "of which upwind differences",
+               "part of lost_numerical_momentum: |u| h / 2 times the second difference, or what limiters "
+               "leave of it",
+               "solver/operators/convection.cpp"},
+    EnergyTerm{"theta_bounds_took", &EnergyTerms::theta_bounds, EnergyKind::part, 0, true,
+               "of which bounds on $\\Theta$",
+               "part of lost_numerical_granular: taken by the bounds on Theta",
+               "solver/operators/granular_temperature.cpp"},
+    EnergyTerm{"energy_residual", &EnergyTerms::residual, EnergyKind::residual, -1, false,
+               "not accounted for",
+               "not accounted for so far: the change of all stored energy less all the other terms",
+               "solver/run/energy_terms.hpp"},
 };
 
-inline void EnergyTerms::add(const EnergyTerms& step) {
-  int n = 0;
+inline double EnergyTerms::numerical() const {
+  double sum = 0.0;
+  for (const EnergyTerm& term : energy_terms)
+    if (term.kind == EnergyKind::numerical) sum += this->*term.value;
+  return sum;
+}
+
+inline double EnergyTerms::numerical_magnitude() const {
+  double sum = 0.0;
+  for (const EnergyTerm& term : energy_terms)
+    if (term.kind == EnergyKind::numerical) sum += std::fabs(this->*term.value);
+  return sum;
+}
+
+inline double EnergyTerms::created() const {
+  double sum = dilatancy > 0.0 ? dilatancy : 0.0;
+  for (const EnergyTerm& term : energy_terms)
+    if (term.kind == EnergyKind::numerical && this->*term.value < 0.0) sum -= this->*term.value;
+  return sum;
+}
+
+inline double EnergyTerms::left_by(const EnergyTerms& before) const {
+  double left = 0.0;
   for (const EnergyTerm& term : energy_terms) {
-    if (n++ < stored_energy_terms)
+    if (term.kind == EnergyKind::residual) continue;
+    const double change =
+        term.kind == EnergyKind::stored ? this->*term.value - before.*term.value : this->*term.value;
+    left += term.sign * change;
+  }
+  return left;
+}
+
+inline void EnergyTerms::add(const EnergyTerms& step) {
+  for (const EnergyTerm& term : energy_terms) {
+    if (term.kind == EnergyKind::stored)
       this->*term.value = step.*term.value;
     else
       this->*term.value += step.*term.value;

@@ -42,15 +42,11 @@ std::string Monitors::not_finite(const State& s) const {
     return std::isfinite(
         max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return std::fabs(v[c]); }));
   };
-  if (!finite(s.f_s)) return "solid fraction";
-  if (!finite(s.alpha)) return "liquid share";
-  if (!finite(s.p_c)) return "fluid pressure";
-  if (!finite(s.p_s)) return "solid pressure";
-  if (!finite(s.theta)) return "granular temperature";
-  for (int d = 0; d < grid_.dim; ++d) {
-    if (!finite(s.u_s[d])) return "solid velocity";
-    if (!finite(s.u_c[d])) return "velocity of the continuous phase";
-  }
+  for (const CellQuantity& q : cell_quantities)
+    if (!finite(s.*q.field)) return q.name;
+  for (const FaceQuantity& q : face_quantities)
+    for (int d = 0; d < grid_.dim; ++d)
+      if (!finite((s.*q.field)[d])) return q.name;
   return {};
 }
 

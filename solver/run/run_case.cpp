@@ -47,6 +47,14 @@ std::vector<Column> monitor_columns() {
   return columns;
 }
 
+std::vector<LedgerTerm> ledger() {
+  std::vector<LedgerTerm> terms;
+  for (const EnergyTerm& term : energy_terms)
+    terms.push_back({term.name, name_of(term.kind), term.sign, term.never_gains, term.label, term.meaning,
+                     term.measured_in});
+  return terms;
+}
+
 // One run: what is done with the steps of the time loop.
 class Run {
  public:
@@ -99,7 +107,7 @@ class Run {
 };
 
 RunWriter Run::open_writer() {
-  const RunStart start{"granvof", options_.command, 1, options_.threads};
+  const RunStart start{"granvof", options_.command, 1, options_.threads, ledger()};
   if (!options_.resume)
     return RunWriter::fresh(options_.out, scene_, start, monitor_columns(), options_.force);
   ResumedRun resumed = RunWriter::resume(options_.out, scene_, start, monitor_columns());

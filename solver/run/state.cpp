@@ -63,29 +63,14 @@ void settle(const Grid& grid, const Scene& scene, State& s) {
 
 }  // namespace
 
-State::State(const Grid& grid)
-    : f_s(grid),
-      alpha(grid),
-      p_c(grid),
-      p_s(grid),
-      theta(grid),
-      phi(grid),
-      packing(grid),
-      u_s(grid),
-      u_c(grid),
-      u_strain(grid) {}
+State::State(const Grid& grid) {
+  for (const CellQuantity& q : cell_quantities) this->*q.field = Field(grid);
+  for (const FaceQuantity& q : face_quantities) this->*q.field = FaceField(grid);
+}
 
 void State::fill_ghosts(const Boundary& boundary) {
-  boundary.fill_solid_fraction(f_s);
-  boundary.fill_liquid_share(alpha);
-  boundary.fill_pressure(p_c);
-  boundary.fill_scalar(p_s);
-  boundary.fill_scalar(theta);
-  boundary.fill_scalar(phi);
-  boundary.fill_scalar(packing);
-  boundary.fill_velocity(u_s, Phase::solid);
-  boundary.fill_velocity(u_c, Phase::fluid);
-  boundary.fill_velocity(u_strain, Phase::solid);
+  for (const CellQuantity& q : cell_quantities) q.fill(boundary, this->*q.field);
+  for (const FaceQuantity& q : face_quantities) boundary.fill_velocity(this->*q.field, q.phase);
 }
 
 State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary) {

@@ -1,6 +1,8 @@
 // Everything that is carried from one time step to the next.
 #pragma once
 
+#include <array>
+
 #include "solver/grid/boundary.hpp"
 #include "solver/run/energy_terms.hpp"
 
@@ -20,6 +22,39 @@ struct State {
 
   explicit State(const Grid& grid);
   void fill_ghosts(const Boundary& boundary);
+};
+
+// The one list of what a state holds: who makes, fills, saves or watches its fields goes through it.
+struct CellQuantity {
+  const char* key;   // in a checkpoint
+  const char* name;  // in messages
+  Field State::*field;
+  void (*fill)(const Boundary& boundary, Field& field);  // its ghosts
+};
+struct FaceQuantity {
+  const char* key;  // and the index of the component
+  const char* name;
+  FaceField State::*field;
+  Phase phase;
+};
+
+inline constexpr auto fill_as_scalar = [](const Boundary& boundary, Field& f) { boundary.fill_scalar(f); };
+inline constexpr std::array cell_quantities{
+    CellQuantity{"f_s", "solid fraction", &State::f_s,
+                 [](const Boundary& boundary, Field& f) { boundary.fill_solid_fraction(f); }},
+    CellQuantity{"alpha", "liquid share", &State::alpha,
+                 [](const Boundary& boundary, Field& f) { boundary.fill_liquid_share(f); }},
+    CellQuantity{"p_c", "fluid pressure", &State::p_c,
+                 [](const Boundary& boundary, Field& f) { boundary.fill_pressure(f); }},
+    CellQuantity{"p_s", "solid pressure", &State::p_s, fill_as_scalar},
+    CellQuantity{"theta", "granular temperature", &State::theta, fill_as_scalar},
+    CellQuantity{"phi", "colour", &State::phi, fill_as_scalar},
+    CellQuantity{"packing", "packing", &State::packing, fill_as_scalar},
+};
+inline constexpr std::array face_quantities{
+    FaceQuantity{"u_s", "solid velocity", &State::u_s, Phase::solid},
+    FaceQuantity{"u_c", "velocity of the continuous phase", &State::u_c, Phase::fluid},
+    FaceQuantity{"u_strain", "solid velocity after friction", &State::u_strain, Phase::solid},
 };
 
 // The state at the start of a scene: the bed and the liquid by volume share of each cell, both at rest, fluid

@@ -41,6 +41,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       budget_(grid, scene, boundary),
       predicted_s_(grid),
       predicted_c_(grid),
+      convective_c_(grid),
       mass_(grid),
       rhs_(grid),
       flux_s_(grid),
@@ -109,7 +110,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     report.not_finite = !std::isfinite(densest);
     return report;
   }
-  const SideLiquid* passed = nullptr;
+  const LiquidPassed* passed = nullptr;
   cost_.time("transport", [&] {
     if (scene_.model.colour) transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.phi, next.phi);
     if (scene_.model.carries_packing())
@@ -121,9 +122,10 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     boundary_.fill_solid_fraction(next.f_s);
     boundary_.fill_velocity(next.u_s, Phase::solid);
   });
-  double dilated = 0.0;
+  double carried = 0.0;
+  cost_.time("energy budget", [&] { carried = budget_.elastic(next.f_s, next.packing); });
   if (scene_.model.shear_dilatancy) {
-    cost_.time("packing", [&] { dilated = dilate(dt, next); });
+    cost_.time("packing", [&] { dilate(dt, next); });
   }
   GranularLosses granular;
   Friction::Power stress;
@@ -134,7 +136,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
                                     rheology_, strain_, production_, next.theta);
   });
   next.fill_ghosts(boundary_);
-  cost_.time("energy budget", [&] { account_energy(now, dt, stress, granular, dilated, *passed, next); });
+  cost_.time("energy budget", [&] { account_energy(now, dt, stress, granular, carried, *passed, next); });
   report.accepted = true;
   return report;
 }
@@ -156,18 +158,24 @@ void TimeStep::predict(const State& now, double dt) {
   kinematic_viscosity_ = viscosity_.update(boundary_, now.u_c, now.f_s, now.alpha);
   const bool limited = scene_.numerics.solid_flux != SolidFlux::upwind;
   const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
+  upwind_ = viscous_power_ = 0.0;
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
     const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
     if (limited && !scene_.liquid_boxes.empty()) {
-      convective_acceleration_limited_in(inertia_.fluid[d], between_gas_and_liquid, grid_, now.u_c, d, fluid,
-                                         predicted_c_[d]);
+      upwind_ +=
+          grid_.cell_volume * convective_acceleration_limited_in(inertia_.fluid[d], between_gas_and_liquid,
+                                                                 grid_, now.u_c, d, fluid, convective_c_[d]);
     } else {
-      convective_acceleration(grid_, now.u_c, d, fluid, limited, predicted_c_[d]);
+      upwind_ += grid_.cell_volume * convective_acceleration(inertia_.fluid[d], grid_, now.u_c, d, fluid,
+                                                             limited, convective_c_[d]);
     }
+    predicted_c_[d] = convective_c_[d];
     viscosity_.add_acceleration(now.u_c, inertia_, d, fluid, predicted_c_[d]);
-    convective_acceleration(grid_, now.u_s, d, solid, limited, predicted_s_[d]);
+    viscous_power_ += viscosity_.power_on(now.u_c, inertia_, d, convective_c_[d], predicted_c_[d]);
+    upwind_ += grid_.cell_volume *
+               convective_acceleration(inertia_.solid[d], grid_, now.u_s, d, solid, limited, predicted_s_[d]);
     bound_convection(grid_, now.u_s, d, solid, dt, inertia_.f_s[d], solid_that_counts, predicted_s_[d]);
     const double *open = aperture_[d].data(), *f = inertia_.f_s[d].data(), *m = inertia_.fluid[d].data();
     const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
@@ -248,24 +256,24 @@ bool TimeStep::apply_viscosity(const State& now, double dt, State& next) {
 }
 
 // Packing of the bed after the shear that friction worked on: elastic waves of the pressure step, which it
-// has not felt yet, would dilate the bed with energy from nothing. Returns what this puts into the contacts
-// [J].
-double TimeStep::dilate(double dt, State& next) {
+// has not felt yet, would dilate the bed with energy from nothing.
+void TimeStep::dilate(double dt, State& next) {
   boundary_.fill_velocity(next.u_strain, Phase::solid);
   strain_.update(grid_, next.u_strain);
-  const double before = budget_.elastic(next.f_s, next.packing);
   shear_packing(grid_, scene_, dt, next.f_s, rheology_, strain_, next.packing);
-  return budget_.elastic(next.f_s, next.packing) - before;
 }
 
 void TimeStep::account_energy(const State& now, double dt, const Friction::Power& stress,
-                              const GranularLosses& granular, double dilated, const SideLiquid& passed,
+                              const GranularLosses& granular, double carried, const LiquidPassed& passed,
                               State& next) {
-  const FluidViscosity::Power viscous = viscosity_.power(boundary_);
-  next.energy.add(
-      budget_.of_step(dt, now, next,
-                      {inertia_, drag_.beta(), predicted_s_, predicted_c_, flux_s_, flux_c_, flux_c_solved_,
-                       rheology_, strain_, viscous, stress, granular, dilated, passed}));
+  const bool implicit = !bears_explicit_viscosity(dt);
+  if (implicit) viscosity_.set_strain(next.u_c);
+  const FluidViscosity::Power viscous = viscosity_.power(boundary_, implicit ? next.u_c : now.u_c);
+  if (implicit) viscous_power_ = viscous.walls + viscous.sides - viscous.dissipation;
+  next.energy.add(budget_.of_step(
+      dt, now, next,
+      {inertia_, drag_.beta(), predicted_s_, predicted_c_, convective_c_, flux_s_, flux_c_, flux_c_solved_,
+       rheology_, strain_, upwind_, viscous_power_, viscous, stress, granular, carried, passed}));
 }
 
 std::string TimeStep::reason_to_refuse(const State& now, double dt, const StepReport& report) const {

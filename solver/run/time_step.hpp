@@ -52,9 +52,10 @@ class TimeStep {
   void apply_friction(const State& now, double dt, State& next, StepReport& report);
   bool bears_explicit_viscosity(double dt) const;
   bool apply_viscosity(const State& now, double dt, State& next);
-  double dilate(double dt, State& next);
+  void dilate(double dt, State& next);
   void account_energy(const State& now, double dt, const Friction::Power& stress,
-                      const GranularLosses& granular, double dilated, const SideLiquid& passed, State& next);
+                      const GranularLosses& granular, double carried, const LiquidPassed& passed,
+                      State& next);
   std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
 
   const Grid& grid_;
@@ -75,6 +76,9 @@ class TimeStep {
   ContinuityTree continuity_tree_;
   EnergyBudget budget_;
   FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
+  FaceField convective_c_;               // convective part of the fluid's [m/s2]
+  double upwind_ = 0.0;                  // power that the upwinding of both momenta takes [W]
+  double viscous_power_ = 0.0;           // of the explicit viscous force [W]
   FaceField mass_, rhs_;                 // of the implicit solid momentum
   FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]
   FaceField flux_c_solved_;              // f_c u_c before continuity was closed

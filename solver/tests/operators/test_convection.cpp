@@ -13,6 +13,10 @@ using test::make_periodic;
 using test::Tank;
 using test::unit_scene;
 
+Field unit_mass(const Grid& grid) {
+  return Field(grid, 1.0);
+}
+
 TEST(Convection, ExactForLinearVelocities) {
   const double g[3][3] = {{0.3, -1.1, 0.7}, {2.0, -0.4, 0.2}, {-0.9, 1.3, 0.6}};
   for (int dim : {2, 3}) {
@@ -28,7 +32,7 @@ TEST(Convection, ExactForLinearVelocities) {
     for (bool limited : {false, true}) {
       for (int d = 0; d < dim; ++d) {
         Field a(s.grid, 1e9);
-        convective_acceleration(s.grid, v, d, s.grid.all_faces(d), limited, a);
+        convective_acceleration(unit_mass(s.grid), s.grid, v, d, s.grid.all_faces(d), limited, a);
         s.each(s.grid.all_faces(d), [&](int i, int j, int k, std::ptrdiff_t c) {
           // on the outermost faces the carrier reaches beyond the box, which is filled too
           double expected = 0.0;
@@ -62,7 +66,7 @@ double mean_error(int n, bool limited) {
   const Tank s(periodic_square(n));
   const FaceField u = s.faces({u0, u1, [](const Vec3&) { return 0.0; }});
   Field a(s.grid);
-  convective_acceleration(s.grid, u, 0, s.grid.all_cells(), limited, a);
+  convective_acceleration(unit_mass(s.grid), s.grid, u, 0, s.grid.all_cells(), limited, a);
   double sum = 0.0;
   s.each_cell([&](int i, int j, int m, std::ptrdiff_t c) {
     const Vec3 x = s.face(0, i, j, m);
@@ -96,8 +100,8 @@ TEST(Convection, MirroredFlowsAccelerateAlike) {
     for (FaceField* v : {&u, &m}) s.boundary.fill_velocity(*v, Phase::fluid);
     for (int d : {0, 1}) {
       Field a(s.grid), b(s.grid);
-      convective_acceleration(s.grid, u, d, s.grid.inner_faces(d), limited, a);
-      convective_acceleration(s.grid, m, d, s.grid.inner_faces(d), limited, b);
+      convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.inner_faces(d), limited, a);
+      convective_acceleration(unit_mass(s.grid), s.grid, m, d, s.grid.inner_faces(d), limited, b);
       s.each(s.grid.inner_faces(d), [&](int i, int j, int, std::ptrdiff_t c) {
         EXPECT_NEAR(b[c], d == 0 ? -a[at(n - i, j)] : a[at(n - 1 - i, j)], 1e-12) << limited << d;
       });
@@ -114,8 +118,8 @@ TEST(Convection, LimitedOnlyWhereTheFluidIsHeavy) {
   s.each_cell([&](int, int j, int, std::ptrdiff_t c) { mass[c] = j < surface ? 1000.0 : 1.0; });
   s.boundary.exchange(mass);
   for (int d = 0; d < 2; ++d) {
-    convective_acceleration(s.grid, u, d, s.grid.all_cells(), false, first);
-    convective_acceleration(s.grid, u, d, s.grid.all_cells(), true, second);
+    convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.all_cells(), false, first);
+    convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.all_cells(), true, second);
     convective_acceleration_limited_in(mass, 31.6, s.grid, u, d, s.grid.all_cells(), both);
     double apart = 0.0;
     s.each_cell([&](int, int j, int, std::ptrdiff_t c) {
@@ -139,7 +143,7 @@ TEST(Convection, NoNewExtremumAtAStep) {
       const double dt = 0.4 * s.grid.h[1];
       const double before = s.total(u[0]);
       for (int step = 0; step < 60; ++step) {
-        convective_acceleration(s.grid, u, 0, s.grid.all_cells(), limited, a);
+        convective_acceleration(unit_mass(s.grid), s.grid, u, 0, s.grid.all_cells(), limited, a);
         s.each_cell([&](int, int, int, std::ptrdiff_t c) { u[0][c] += dt * a[c]; });
         s.boundary.exchange(u[0]);
         ASSERT_GE(s.smallest(u[0]), -1e-14);
@@ -168,7 +172,7 @@ TEST(Convection, BoundedWhereGrainsDoNotCount) {
       double beyond = 0.0;
       for (int d = 0; d < dim; ++d) {
         Field free(s.grid), bounded(s.grid);
-        convective_acceleration(s.grid, u, d, s.grid.all_cells(), limited, free);
+        convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.all_cells(), limited, free);
         bounded = free;
         bound_convection(s.grid, u, d, s.grid.all_cells(), dt, fraction, least, bounded);
         const double lowest = s.smallest(u[d]), highest = s.largest(u[d]);
@@ -192,7 +196,7 @@ TEST(Convection, BoundLeavesShortStepsAlone) {
   Tank s(periodic_square(8));
   const FaceField u = s.random_faces(-1.0, 1.0);
   Field free(s.grid), bounded(s.grid);
-  convective_acceleration(s.grid, u, 0, s.grid.all_cells(), false, free);
+  convective_acceleration(unit_mass(s.grid), s.grid, u, 0, s.grid.all_cells(), false, free);
   bounded = free;
   bound_convection(s.grid, u, 0, s.grid.all_cells(), 0.2 * s.grid.h[0], Field(s.grid), 1e-3, bounded);
   s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_EQ(bounded[c], free[c]); });

@@ -71,14 +71,6 @@ inline void PrintTo(const Variant& variant, std::ostream* out) {
 }
 inline constexpr auto name_of = [](const auto& instance) { return instance.param.name; };
 
-// What the budget says has left the store, and by how much the store has not changed so: an identity [J].
-inline double all_losses(const EnergyTerms& e) {
-  return e.physical() + e.numerical() + e.outflow - e.walls - e.dilatancy - e.shear_dilatancy - e.residual;
-}
-inline double unaccounted(const EnergyTerms& start, const EnergyTerms& now) {
-  return now.stored() - start.stored() + all_losses(now);
-}
-
 inline int run_into(const std::filesystem::path& out, const Scene& scene, bool resume = false,
                     int threads = 1) {
   RunOptions options;

@@ -31,14 +31,15 @@ class RunAlarms : public ::testing::Test {
   // `resumed_`.
   int resume_with(const std::function<void(std::vector<double>&)>& change, const char* field = "f_s") {
     const Scene half = column_scene({"time.end=0.02"}), whole = column_scene({"time.end=0.04"});
-    EXPECT_EQ(run_into(path("run"), half), 0);
-    Checkpoint saved = read_checkpoint(path("run") / "checkpoint.h5", half);
+    const auto run = directory_.path() / ("resumed" + std::to_string(++runs_));
+    EXPECT_EQ(run_into(run, half), 0);
+    Checkpoint saved = read_checkpoint(run / "checkpoint.h5", half);
     CheckpointView view{saved.time, {}, saved.scalars, saved.counters};
     change(saved.arrays.at(field));
     for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
-    write_checkpoint(path("run") / "checkpoint.h5", half, view);
-    const int code = run_into(path("run"), whole, true);
-    resumed_ = json::parse(test::text_of(path("run") / "run.json"));
+    write_checkpoint(run / "checkpoint.h5", half, view);
+    const int code = run_into(run, whole, true);
+    resumed_ = json::parse(test::text_of(run / "run.json"));
     return code;
   }
   json resumed_;
@@ -113,11 +114,36 @@ TEST_F(RunAlarms, ADenseStartIsSeen) {
                       "elastic start"));
 }
 
-// Velocities that nothing has given, as after a blow-up that stays finite: the run stops and says why.
+// Fluctuation that nothing has given is cut down to what a fall could give, and that is said.
+TEST_F(RunAlarms, FluctuationFromNothingIsSeenInTheBounds) {
+  EXPECT_EQ(
+      resume_with([](std::vector<double>& theta) { std::fill(theta.begin(), theta.end(), 1e6); }, "theta"),
+      0);
+  EXPECT_TRUE(warned(resumed_, "granular bounds")) << resumed_["warnings"];
+  EXPECT_EQ(
+      resume_with([](std::vector<double>& theta) { std::fill(theta.begin(), theta.end(), 1e-9); }, "theta"),
+      0);
+  EXPECT_FALSE(warned(resumed_, "granular bounds")) << resumed_["warnings"];
+}
+
+// Velocities that nothing has given, as after a blow-up that stays finite: the run stops and says why. A
+// hundredth of them it was given.
 TEST_F(RunAlarms, EnergyFromNothingStopsTheRun) {
-  const int code =
-      resume_with([](std::vector<double>& theta) { std::fill(theta.begin(), theta.end(), 1e6); }, "theta");
-  EXPECT_TRUE(code == 1 || warned(resumed_, "granular bounds")) << resumed_["exit"]["reason"];
+  const auto stir = [](double speed) {
+    return [=](std::vector<double>& u) {
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] = (i / 20) % 2 == 0 ? speed : -speed;
+    };
+  };
+  EXPECT_EQ(resume_with(stir(30.0), "u_c0"), 1);
+  EXPECT_TRUE(std::string(resumed_["exit"]["reason"]).starts_with("blow-up")) << resumed_["exit"]["reason"];
+  EXPECT_EQ(resume_with(stir(0.3), "u_c0"), 0);
+}
+
+// Fluxes of first order on four cells across a column: they lift as much as physics dissipates. On cells half
+// as large, or with limited fluxes, they do not.
+TEST_F(RunAlarms, EnergyThatFluxesMakeIsSeen) {
+  EXPECT_TRUE(warned(record_of({}), "energy created"));
+  EXPECT_FALSE(warned(record_of({"numerics.solid_flux=limited"}), "energy created"));
 }
 
 // The rules themselves, each limit alone.

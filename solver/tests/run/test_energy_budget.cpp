@@ -1,6 +1,7 @@
 // The energy budget: it closes, its terms are the known ones where theory knows them, and it sees what is
 // wrong.
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "solver/closures/elastic_energy.hpp"
@@ -9,16 +10,13 @@
 namespace granvof {
 namespace {
 
-using test::all_losses;
 using test::column_scene;
 using test::Simulation;
 
-// Energies and work were computed apart from each other: their sum is an identity.
-void expect_closed(const EnergyTerms& start, const EnergyTerms& now, double residual_share) {
-  const double turnover = now.physical() + std::fabs(now.numerical_time) + now.kinetic;
-  EXPECT_GT(turnover, 0.0);
-  EXPECT_NEAR(now.stored() - start.stored(), -all_losses(now), 1e-11 * (start.stored() + turnover));
-  EXPECT_LT(std::fabs(now.residual), residual_share * turnover);
+// Energies and work were computed apart from each other: what they leave is small beside what physics took.
+void expect_closed(const EnergyTerms& now, double residual_share) {
+  EXPECT_GT(now.physical(), 0.0);
+  EXPECT_LT(std::fabs(now.residual), residual_share * now.physical());
 }
 
 TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
@@ -29,10 +27,9 @@ TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
         "walls.bottom.velocity=[0.1, 0]", "walls.all=slip", "liquid.level=0.08"}) {
     SCOPED_TRACE(change);
     Simulation run(column_scene({change}));
-    const EnergyTerms start = run.now.energy;
     run.until(0.05);
     if (::testing::Test::HasFatalFailure()) return;
-    expect_closed(start, run.now.energy, 1e-3);
+    expect_closed(run.now.energy, 1e-3);
     EXPECT_GE(run.now.energy.drag, 0.0);
     EXPECT_GE(run.now.energy.friction, 0.0);
     EXPECT_GE(run.now.energy.viscosity, 0.0);
@@ -44,11 +41,10 @@ TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
 // it takes.
 TEST(EnergyBudget, ClosesWithShearDilatancy) {
   Simulation run(column_scene({"model.shear_dilatancy=true", "bed.solid_fraction=0.61"}));
-  const EnergyTerms start = run.now.energy;
   run.until(0.1);
   if (::testing::Test::HasFatalFailure()) return;
   const EnergyTerms& now = run.now.energy;
-  expect_closed(start, now, 1e-3);
+  expect_closed(now, 1e-3);
   EXPECT_GT(now.shear_dilatancy, 0.01 * now.friction);
   EXPECT_LT(now.shear_dilatancy, 0.5 * now.friction);
 }
@@ -87,9 +83,8 @@ series_interval = 0.1
 )";
   const std::vector<std::string> periodic{"walls.front=periodic", "walls.back=periodic"};
   Simulation run(parse_scene(cube, "cube.toml", periodic));
-  const EnergyTerms start = run.now.energy;
   run.until(0.04);
-  expect_closed(start, run.now.energy, 1e-3);
+  expect_closed(run.now.energy, 1e-3);
 }
 
 TEST(EnergyBudget, WhatIsSwitchedOffTakesNothing) {
@@ -125,12 +120,119 @@ TEST(EnergyBudget, WhatVolumeTransportMakesVanishesWithTheCell) {
   for (const char* cell : {"grid.dx=0.01", "grid.dx=0.005", "grid.dx=0.0025"}) {
     Simulation run(column_scene({cell, "numerics.cfl=0.4", "numerics.volume_tolerance=1e-8"}));
     run.until(0.1);
-    made.push_back(-run.now.energy.numerical_volume);
+    made.push_back(-run.now.energy.numerical_solid);
   }
   EXPECT_GT(made[2], 0.0);
   EXPECT_GT(made[0] / made[1], 1.5);
   EXPECT_GT(made[1] / made[2], 1.5);
   EXPECT_LT(made[1] / made[2], 3.0);
+}
+
+// A liquid that a uniform flow carries along, with a shear wave across it: the upwind difference is a
+// viscosity U h / 2, and all that the wave loses in steps too short to matter is what it takes.
+double taken_from_a_wave(int cells, double* predicted) {
+  constexpr double speed = 0.2, amplitude = 0.02, length = 0.16, wave = 2.0 * std::numbers::pi / length;
+  Simulation run(parse_scene(fmt::format(R"([scene]
+name = "wave"
+dimensions = 2
+[tank]
+size = [0.16, 0.04]
+gravity = 0
+[grid]
+dx = {}
+dy = 0.02
+[walls]
+all = "slip"
+left = "periodic"
+right = "periodic"
+bottom = "periodic"
+top = "periodic"
+[gas]
+density = 1000
+viscosity = 0
+[model]
+preset = "paper"
+les = false
+[time]
+end = 1
+[output]
+series_interval = 1
+)",
+                                         length / cells),
+                             "wave.toml", {}));
+  run.now.u_c[0].fill(speed);
+  run.set_faces(run.now.u_c[1], 1, [=](double x, double) { return amplitude * std::sin(wave * x); });
+  run.fill_ghosts();
+  constexpr double dt = 1e-4, steps = 10;
+  for (int i = 0; i < steps; ++i) run.advance(dt);
+  const double mean_square_slope = 0.5 * amplitude * amplitude * wave * wave;
+  *predicted = 1000.0 * 0.5 * speed * run.grid.h[0] * mean_square_slope * (length * 0.04) * steps * dt;
+  const EnergyTerms& e = run.now.energy;
+  EXPECT_NEAR(e.numerical_momentum, e.upwind_momentum, 0.02 * e.upwind_momentum);
+  return e.upwind_momentum;
+}
+
+TEST(EnergyBudget, UpwindMomentumTakesWhatItsViscosityPredicts) {
+  double of_coarse = 0.0, of_fine = 0.0;
+  const double coarse = taken_from_a_wave(32, &of_coarse), fine = taken_from_a_wave(64, &of_fine);
+  EXPECT_NEAR(coarse, of_coarse, 0.02 * of_coarse);
+  EXPECT_NEAR(fine, of_fine, 0.005 * of_fine);
+}
+
+// Grains too small to settle are lifted with the water, above them none: |u| h / 2 times the jump of f_s
+// spreads them upwards, against their weight in the mixture.
+TEST(EnergyBudget, UpwindGrainsAreLiftedAsTheirDiffusionPredicts) {
+  for (const char* cell : {"0.01", "0.005"}) {
+    constexpr double speed = 0.02, fraction = 0.1, dt = 1e-4;
+    Simulation run(parse_scene(fmt::format(R"([scene]
+name = "lift"
+dimensions = 2
+[tank]
+size = [0.02, 0.2]
+[grid]
+dx = 0.01
+dy = {}
+[walls]
+all = "slip"
+bottom = {{ inflow = {} }}
+top = {{ outflow_pressure = 0 }}
+[gas]
+density = 1
+viscosity = 1e-5
+[liquid]
+density = 1000
+viscosity = 1e-3
+level = 0.2
+[solid]
+density = 2500
+diameter = 1e-5
+friction = 0.4
+[bed]
+length = 0.02
+height = 0.04
+solid_fraction = 0.5
+[model]
+preset = "paper"
+granular_temperature = "off"
+[numerics]
+volume_tolerance = 1e-10
+[time]
+end = 1
+[output]
+series_interval = 1
+)",
+                                           cell, speed),
+                               "lift.toml", {}));
+    run.set(run.now.f_s, [](double, double y) { return y < 0.1 ? fraction : 0.0; });
+    run.now.u_s[1].fill(speed);
+    run.now.u_c[1].fill(speed);
+    run.fill_ghosts();
+    run.advance(dt);
+    ASSERT_FALSE(HasFatalFailure());
+    const double lighter = 1500.0 * (1.0 - 0.5 * fraction);  // the face's mixture than grains [kg/m3]
+    const double made = 0.5 * speed * run.grid.h[1] * fraction * lighter * 9.81 * 0.02 * dt;
+    EXPECT_NEAR(-run.now.energy.numerical_solid, made, 0.01 * made) << cell;
+  }
 }
 
 // A solver that does not reach its tolerance leaves momentum or continuity unsolved: that is the residual.

@@ -99,24 +99,19 @@ TEST(Monitors, NoticeWhatIsNotFinite) {
   const Control c;
   const Monitors monitors(c.grid, c.scene, c.state);
   EXPECT_EQ(monitors.not_finite(c.state), "");
-  using Poison = void (*)(State&, std::ptrdiff_t, double);
-  const std::vector<std::pair<std::string, Poison>> poisons{
-      {"solid fraction", [](State& s, std::ptrdiff_t i, double v) { s.f_s[i] = v; }},
-      {"liquid share", [](State& s, std::ptrdiff_t i, double v) { s.alpha[i] = v; }},
-      {"fluid pressure", [](State& s, std::ptrdiff_t i, double v) { s.p_c[i] = v; }},
-      {"solid pressure", [](State& s, std::ptrdiff_t i, double v) { s.p_s[i] = v; }},
-      {"granular temperature", [](State& s, std::ptrdiff_t i, double v) { s.theta[i] = v; }},
-      {"solid velocity", [](State& s, std::ptrdiff_t i, double v) { s.u_s[1][i] = v; }},
-      {"velocity of the continuous phase", [](State& s, std::ptrdiff_t i, double v) { s.u_c[0][i] = v; }},
-  };
-  for (const auto& [name, poison] : poisons)
+  const auto expect_noticed = [&](const char* name, auto&& field_of) {
     for (double bad : {std::nan(""), -std::nan(""), std::numeric_limits<double>::infinity(),
                        -std::numeric_limits<double>::infinity()})
       for (std::ptrdiff_t where : {c.at(0, 0), c.at(7, 3), c.at(15, 7)}) {
         State s = c.state;
-        poison(s, where, bad);
+        field_of(s)[where] = bad;
         EXPECT_EQ(monitors.not_finite(s), name) << bad;
       }
+  };
+  for (const CellQuantity& q : cell_quantities)
+    expect_noticed(q.name, [&](State& s) -> Field& { return s.*q.field; });
+  for (const FaceQuantity& q : face_quantities)
+    for (int d = 0; d < 2; ++d) expect_noticed(q.name, [&](State& s) -> Field& { return (s.*q.field)[d]; });
 }
 
 TEST(Monitors, VolumesAndTheirErrors) {
