@@ -73,8 +73,8 @@ inline void for_each(const Layout& l, Body&& body) {
 // Where a second thread pays. A separate serial branch instead of `if` in the pragma: starting a team of one
 // costs more than a coarse level.
 inline bool worth_threads(const Range& r) {
-  const long count = static_cast<long>(r.upper[0] - r.lower[0]) * (r.upper[1] - r.lower[1]) *
-                     (r.upper[2] - r.lower[2]);
+  const long count =
+      static_cast<long>(r.upper[0] - r.lower[0]) * (r.upper[1] - r.lower[1]) * (r.upper[2] - r.lower[2]);
   return count > cells_that_pay_for_threads && omp_get_max_threads() > 1;
 }
 

@@ -1,9 +1,9 @@
 // Sums and largest values over the values of a box: of all processes that share it, and the only ones there
 // are. A loop that adds up by itself would know its own process alone.
 //
-// Rows in parallel. A sum does not depend on the number of threads: rows are added up in fixed blocks, and the
-// blocks in their order. (A reduction of OpenMP adds up in the order in which threads arrive.) Bodies as those
-// of for_each.hpp.
+// Rows in parallel. A sum does not depend on the number of threads: rows are added up in fixed blocks, and
+// the blocks in their order. (A reduction of OpenMP adds up in the order in which threads arrive.) Bodies as
+// those of for_each.hpp.
 #pragma once
 
 #include <array>
@@ -45,7 +45,8 @@ inline auto sum_rows(const Range& r, Row&& row) {
   const auto add_up = [&](int block) {
     const auto begin = [=](int b) { return static_cast<int>(static_cast<long>(rows) * b / sum_blocks); };
     Sum sum{};
-    for (int n = begin(block); n < begin(block + 1); ++n) sum += row(r.lower[1] + n % ny, r.lower[2] + n / ny);
+    for (int n = begin(block); n < begin(block + 1); ++n)
+      sum += row(r.lower[1] + n % ny, r.lower[2] + n / ny);
     partial[static_cast<std::size_t>(block)] = sum;
   };
   if (worth_threads(r)) {
@@ -154,6 +155,13 @@ inline double of_all(const Layout& l, double sum) {
   return of_all(l, Sums<1>{{sum}}).values[0];
 }
 
+// Whether all of them say so.
+inline bool everywhere(const Layout& l, bool here) {
+  double denied = here ? 0.0 : 1.0;
+  if (l.communicator != nullptr) l.communicator->max({&denied, 1});
+  return denied == 0.0;
+}
+
 // Sum over the range of body(index), in an order that is that of the range alone.
 template <typename Body>
 inline double sum_over(const Layout& l, const Range& r, Body&& body) {
@@ -177,14 +185,38 @@ inline double max_over(const Layout& l, const Range& r, double floor, Body&& bod
                 }));
 }
 
-// Sum of body(j, k), a number or Sums, over the rows along x of the range (at first: of the whole box).
-template <typename Body>
-inline auto sum_rows(const Layout& l, const Range& r, Body&& body) {
-  return of_all(l, of_process::sum_rows(r, body));
+// Sum of body(item) over items that each belong to one process.
+template <typename Items, typename Body>
+inline double sum_of(const Layout& l, const Items& items, Body&& body) {
+  double total = 0.0;
+  for (const auto& item : items) total += body(item);
+  return of_all(l, total);
 }
+
+// Sum of (place along d + 1/2) body(index): the first moment about the lower side, in cells.
+template <typename Body>
+inline double moment_over(const Layout& l, const Range& r, int d, Body&& body) {
+  double moment = 0.0;
+  Range layer = r;
+  for (int at = r.lower[d]; at < r.upper[d]; ++at) {
+    layer.lower[d] = at;
+    layer.upper[d] = at + 1;
+    moment += (at + 0.5) * of_process::sum_over(l, layer, body);
+  }
+  return of_all(l, moment);
+}
+
+// Sum of body(j, k), a number or Sums, over the rows along x of the box; of body(index of the first value,
+// number of values) over those of a range.
 template <typename Body>
 inline auto sum_rows(const Layout& l, Body&& body) {
-  return sum_rows(l, Range::all(l), body);
+  return of_all(l, of_process::sum_rows(Range::all(l), body));
+}
+template <typename Body>
+inline auto sum_rows(const Layout& l, const Range& r, Body&& body) {
+  return of_all(l, of_process::sum_rows(r, [&](int j, int k) {
+                  return body(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
+                }));
 }
 
 // Largest body(j, k) >= 0 over the rows of the box; infinity if one of them is not a number.
@@ -194,8 +226,8 @@ inline double max_rows(const Layout& l, Body&& body) {
   return largest == largest ? largest : __builtin_inf();
 }
 
-// The same over several boxes that one set of processes shares, in one message: body(b) is the body for box b,
-// of values for the sum, of rows for the largest.
+// The same over several boxes that one set of processes shares, in one message: body(b) is the body for box
+// b, of values for the sum, of rows for the largest.
 template <typename Body>
 inline double sum_over(const std::vector<Layout>& boxes, Body&& body) {
   double total = 0.0;

@@ -15,21 +15,43 @@
 #include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
 #include "solver/grid/memory.hpp"
-#include "solver/linear/padded_layout.hpp"
 #include "solver/grid/reduce.hpp"
-#include "solver/linear/with_directions.hpp"
+#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/tolerance.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 
 using Components = std::array<double*, 3>;  // nullptr beyond the number of components
 using ConstComponents = std::array<const double*, 3>;
 
+// Body for rows: the largest |body(index)| weight[index] of one, nullptr for weights of 1; not finite if
+// one of them is not.
+template <typename Body>
+auto largest_of_row(const Layout& l, const double* weight, Body body) {
+  return [l, weight, body](int j, int k) {
+    const std::ptrdiff_t row = l.index(0, j, k);
+    const int n = l.n[0];
+    double line = 0.0, poison = 0.0;  // 0 * v is 0 unless v is not finite
+    const auto take = [&](double v) {
+      line = v > line ? v : line;
+      poison += 0.0 * v;
+    };
+    if (weight == nullptr) {
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+      for (int i = 0; i < n; ++i) take(std::fabs(body(row + i)));
+    } else {
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+      for (int i = 0; i < n; ++i) take(std::fabs(body(row + i) * weight[row + i]));
+    }
+    return line + poison;
+  };
+}
+
 class ConjugateGradient {
  public:
   // One layout per component (1 to 3), of boxes that the same processes share.
-  explicit ConjugateGradient(const std::vector<Layout>& layouts)
-      : layouts_(layouts) {
+  explicit ConjugateGradient(const std::vector<Layout>& layouts) : layouts_(layouts) {
     assert(!layouts.empty() && layouts.size() <= 3);
     for (std::size_t c = 0; c < layouts_.size(); ++c) {
       for (auto* set : {&r_, &z_, &p_, &q_}) {
@@ -134,29 +156,6 @@ class ConjugateGradient {
         return r[i] -= alpha * q[i];
       });
     });
-  }
-
-  // Body for rows: the largest |body(index)| weight[index] of one, nullptr for weights of 1; not finite if one
-  // of them is not.
-  template <typename Body>
-  static auto largest_of_row(const Layout& l, const double* weight, Body body) {
-    return [l, weight, body](int j, int k) {
-      const std::ptrdiff_t row = l.index(0, j, k);
-      const int n = l.n[0];
-      double line = 0.0, poison = 0.0;  // 0 * v is 0 unless v is not finite
-      const auto take = [&](double v) {
-        line = v > line ? v : line;
-        poison += 0.0 * v;
-      };
-      if (weight == nullptr) {
-#pragma omp simd reduction(max : line) reduction(+ : poison)
-        for (int i = 0; i < n; ++i) take(std::fabs(body(row + i)));
-      } else {
-#pragma omp simd reduction(max : line) reduction(+ : poison)
-        for (int i = 0; i < n; ++i) take(std::fabs(body(row + i) * weight[row + i]));
-      }
-      return line + poison;
-    };
   }
 
   std::vector<Layout> layouts_;

@@ -1,9 +1,9 @@
 // The preconditioner of CoupledSolver, as its header describes it.
+#include "solver/grid/flush_denormals.hpp"
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/coupled_solver.hpp"
 #include "solver/linear/face_operator.hpp"
-#include "solver/grid/flush_denormals.hpp"
 #include "solver/linear/multigrid_rows.hpp"
-#include "solver/grid/reduce.hpp"
 #include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/face_operator.hpp"
 #include "solver/linear/multigrid_rows.hpp"
-#include "solver/grid/reduce.hpp"
 #include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
@@ -32,8 +32,7 @@ bool CoupledSolver::Norms::finite() const {
   return std::isfinite(first) && std::isfinite(second);
 }
 
-CoupledSolver::CoupledSolver(const Layout& layout,
-                             const std::array<double, 3>& spacing)
+CoupledSolver::CoupledSolver(const Layout& layout, const std::array<double, 3>& spacing)
     : user_(layout),
       pressure_(layout, spacing),
       granular_(layout, spacing),
@@ -147,8 +146,9 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
   const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
     double* to = t_[c].data();
-    for_each_row(layout_,
-             [&](int j, int k) { std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k)); });
+    for_each_row(layout_, [&](int j, int k) {
+      std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k));
+    });
     exchange(layout_, to);
   }
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {

@@ -9,8 +9,8 @@
 
 #include "solver/grid/layout.hpp"
 #include "solver/grid/memory.hpp"
-#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/multigrid.hpp"
+#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/tolerance.hpp"
 
 namespace granvof::linear {
@@ -30,8 +30,7 @@ struct CoupledSystem {
 class CoupledSolver {
  public:
   // Systems whose arrays all have `layout`. `spacing` as in Multigrid.
-  explicit CoupledSolver(const Layout& layout,
-                const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
+  explicit CoupledSolver(const Layout& layout, const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
 
   // x1 and x2 are the guess on entry. Converged when each row's residual is below max(absolute, relative
   // times its own initial residual); the report holds the larger of the two rows. With m11 = 0 everywhere x1

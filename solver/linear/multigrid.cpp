@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "solver/grid/flush_denormals.hpp"
-#include "solver/linear/multigrid_rows.hpp"
 #include "solver/grid/reduce.hpp"
+#include "solver/linear/multigrid_rows.hpp"
 #include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
@@ -20,8 +20,7 @@ rows::Stencil stencil(const std::array<Buffer<float>, 3>& face, const Layout& l)
 
 }  // namespace
 
-Multigrid::Multigrid(const Layout& layout,
-                     const std::array<double, 3>& spacing)
+Multigrid::Multigrid(const Layout& layout, const std::array<double, 3>& spacing)
     : user_(layout), spacing_(spacing) {
   // Chebyshev recurrence on [lowest, highest], the eigenvalues of D^-1 A that smoothing is to damp.
   constexpr double lowest = 0.5, highest = 2.0;

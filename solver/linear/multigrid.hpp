@@ -15,8 +15,8 @@
 
 #include "solver/grid/layout.hpp"
 #include "solver/grid/memory.hpp"
-#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/faces.hpp"
+#include "solver/linear/padded_layout.hpp"
 
 namespace granvof::linear {
 
@@ -35,8 +35,7 @@ class Multigrid {
 
   // `spacing` (any unit): a direction is coarsened only while its cells are
   // less than about twice as long as the shortest ones, since weakly coupled directions need no coarsening.
-  explicit Multigrid(const Layout& layout,
-            const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
+  explicit Multigrid(const Layout& layout, const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
 
   // Takes new coefficients. Faces and masses >= 0. No allocation unless other directions become coupled than
   // in the last call (at first: all with more than one cell).

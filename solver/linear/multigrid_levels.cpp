@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/linear/multigrid.hpp"
 #include "solver/grid/reduce.hpp"
+#include "solver/linear/multigrid.hpp"
 #include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {

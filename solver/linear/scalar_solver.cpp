@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/linear/face_operator.hpp"
 #include "solver/grid/flush_denormals.hpp"
 #include "solver/grid/reduce.hpp"
+#include "solver/linear/face_operator.hpp"
 #include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
@@ -19,8 +19,7 @@ double power_of_two_near(double x) {
 
 }  // namespace
 
-ScalarSolver::ScalarSolver(const Layout& layout,
-                           const std::array<double, 3>& spacing, int smoothing)
+ScalarSolver::ScalarSolver(const Layout& layout, const std::array<double, 3>& spacing, int smoothing)
     : user_(layout),
       smoothing_(smoothing),
       multigrid_(layout, spacing),
@@ -76,8 +75,9 @@ double ScalarSolver::true_residual(const Faces& faces, const double* mass, const
                                    const double* x) {
   double* guess = guess_.data();
   const int n = user_.n[0];
-  for_each_row(layout_,
-           [&](int j, int k) { std::copy_n(x + user_.index(0, j, k), n, guess + layout_.index(0, j, k)); });
+  for_each_row(layout_, [&](int j, int k) {
+    std::copy_n(x + user_.index(0, j, k), n, guess + layout_.index(0, j, k));
+  });
   exchange(layout_, guess);
   const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
   return with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {

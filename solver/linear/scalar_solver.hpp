@@ -5,9 +5,9 @@
 
 #include "solver/grid/layout.hpp"
 #include "solver/grid/memory.hpp"
-#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/faces.hpp"
 #include "solver/linear/multigrid.hpp"
+#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/tolerance.hpp"
 
 namespace granvof::linear {
@@ -15,8 +15,8 @@ namespace granvof::linear {
 class ScalarSolver {
  public:
   // Systems whose arrays all have `layout`. `spacing` as in Multigrid.
-  explicit ScalarSolver(const Layout& layout,
-               const std::array<double, 3>& spacing = {1.0, 1.0, 1.0}, int smoothing = 2);
+  explicit ScalarSolver(const Layout& layout, const std::array<double, 3>& spacing = {1.0, 1.0, 1.0},
+                        int smoothing = 2);
 
   // Solves mass x + sum over faces of a (x - x_neighbour) = rhs; x is the guess on entry. With mass 0
   // everywhere and no open end the matrix is singular: rhs must then sum to 0, and x is one of the solutions.

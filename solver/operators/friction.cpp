@@ -95,7 +95,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   apply(mass, u, r);
   set_own_diffusion(mass);
   set_weights(mass);
-  const bool thin = direct_.factorise(box_, form(mass));
+  const bool thin = everywhere(grid_.cells, direct_.factorise(box_, form(mass)));
   if (!thin) set_multigrids();
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]

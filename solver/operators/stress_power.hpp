@@ -33,7 +33,7 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
 }
 
 // Power [W] that moving walls give to a phase whose shear stress [Pa] on the edge with index c of plane (d,
-// e) is stress(d, e, c).
+// e) is stress(d, e)(c).
 template <typename Stress>
 double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
   double total = 0.0;
@@ -47,8 +47,7 @@ double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
         if (grid.cells.periodic[e]) wall.upper[e] -= 1;
         wall.lower[d] = upper ? grid.cells.n[d] : 0;
         wall.upper[d] = wall.lower[d] + 1;
-        const double sum = sum_over(
-            grid.cells, wall, [&](std::ptrdiff_t c) { return stress(std::min(d, e), std::max(d, e), c); });
+        const double sum = sum_over(grid.cells, wall, stress(std::min(d, e), std::max(d, e)));
         total += (upper ? 1.0 : -1.0) * speed * sum * grid.cell_volume / grid.h[d];
       }
     }
