@@ -16,6 +16,7 @@ class SceneEntry:
     case: Path
     compare: dict  # column of series.csv -> largest difference from the run at half the step, in the column's unit
     set: list = field(default_factory=list)
+    allow: list = field(default_factory=list)  # as of its axes and points, for all of them
 
 
 @dataclass
@@ -80,7 +81,7 @@ def read_axis(entry, scenes, path):
     axis = Axis(need(entry, "name", where, str), scenes[scene], entry.get("unit", "-"),
                 float(need(entry, "nominal", where, (int, float))), need(entry, "assign", where, list), entry.get("low"),
                 entry.get("high"), entry.get("scale", "log"), entry.get("values"), entry.get("set", []),
-                entry.get("allow", []), entry.get("note", ""), entry.get("known", []))
+                scenes[scene].allow + entry.get("allow", []), entry.get("note", ""), entry.get("known", []))
     if axis.values is not None:
         if axis.nominal not in axis.values or sorted(axis.values) != axis.values:
             raise TableError(f"{where}: values must ascend and hold the nominal one")
@@ -107,11 +108,12 @@ def read_data(data, path):
     refuse_unknown(data, ["bisections", "methods", "scene", "axis", "point"], path)
     scenes = {}
     for name, entry in data.get("scene", {}).items():
-        refuse_unknown(entry, ["case", "compare", "set"], f"{path}: scene {name}")
+        refuse_unknown(entry, ["case", "compare", "set", "allow"], f"{path}: scene {name}")
         case = path.parent / need(entry, "case", f"{path}: scene {name}", str)
         if not case.exists():
             raise TableError(f"{path}: scene {name}: there is no {case}")
-        scenes[name] = SceneEntry(name, case, need(entry, "compare", f"{path}: scene {name}", dict), entry.get("set", []))
+        scenes[name] = SceneEntry(name, case, need(entry, "compare", f"{path}: scene {name}", dict),
+                                  entry.get("set", []), entry.get("allow", []))
     points = []
     for entry in data.get("point", []):
         where = f"{path}: point {entry.get('name', '?')}"
@@ -120,7 +122,7 @@ def read_data(data, path):
         if scene not in scenes:
             raise TableError(f"{where}: scene {scene} given; there are {', '.join(scenes)}")
         points.append(Point(need(entry, "name", where, str), scenes[scene], need(entry, "set", where, list),
-                            entry.get("allow", []), entry.get("note", ""), entry.get("known", [])))
+                            scenes[scene].allow + entry.get("allow", []), entry.get("note", ""), entry.get("known", [])))
     axes = [read_axis(entry, scenes, path) for entry in data.get("axis", [])]
     if not axes and not points:
         raise TableError(f"{path}: there is no [[axis]] and no [[point]]")

@@ -42,7 +42,7 @@ TEST(EnergyBudgetOfARun, ClosesAndSaysWhatIsMissing) {
 
 // The sign is what the run's own ledger says, not what the name of the column suggests.
 TEST(EnergyBudgetOfARun, FollowsTheLedgerOfTheRun) {
-  Run run = falling(0.0);
+  auto run = falling(0.0);
   run.facts.ledger[3].sign = 1;
   EXPECT_NEAR(*closure_error(energy_budget(run), 2.0), 0.2, 1e-12);
 }

@@ -180,10 +180,12 @@ void CoupledPressure::set_balances(double dt, const Field& f_s, const Field& p_s
     for (const bool upper : {false, true}) {
       // P_c is given half a cell beyond the outermost cells: twice the face coefficient to a known zero
       if (!grid_.side(d, upper).passes_fluid) continue;
-      const double* k11 = k11_[d].data();
+      double* k11 = k11_[d].data();
       const std::ptrdiff_t face = upper ? grid_.stride(d) : 0;
-      for_each(grid_.cells, grid_.side_cells(d, upper),
-               [=](std::ptrdiff_t c) { m1[c] += 2.0 * k11[c + face]; });
+      for_each(grid_.cells, grid_.side_cells(d, upper), [=](std::ptrdiff_t c) {
+        m1[c] += 2.0 * k11[c + face];
+        k11[c + face] = 0.0;  // the solver takes no neighbour beyond a side
+      });
     }
   }
 }

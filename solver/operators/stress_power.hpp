@@ -6,27 +6,33 @@
 namespace granvof {
 
 // Sum of weight * body(edge) over the edges of plane (d, e). An edge on a side counts half: the stress there
-// acts on one row of faces only. Periodic ends count once.
+// acts on one row of faces only. Periodic ends count once. In a corner of two closed sides the stress acts on
+// no face whose momentum is solved, and does no work.
 template <typename Body>
 double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
   struct Part {
     int lower, upper;
     double weight;
+    bool closed;
   };
   const auto parts = [&](int direction) {
     const int n = grid.cells.n[direction];
-    if (grid.cells.periodic[direction]) return std::array<Part, 3>{{{0, n, 1.0}, {0, 0, 0.0}, {0, 0, 0.0}}};
-    return std::array<Part, 3>{{{0, 1, 0.5}, {1, n, 1.0}, {n, n + 1, 0.5}}};
+    if (grid.cells.periodic[direction])
+      return std::array<Part, 3>{{{0, n, 1.0, false}, {0, 0, 0.0, false}, {0, 0, 0.0, false}}};
+    const auto closed = [&](bool upper) { return !grid.side(direction, upper).passes_fluid; };
+    return std::array<Part, 3>{
+        {{0, 1, 0.5, closed(false)}, {1, n, 1.0, false}, {n, n + 1, 0.5, closed(true)}}};
   };
   double total = 0.0;
   for (const Part& a : parts(d)) {
     for (const Part& b : parts(e)) {
+      if (a.weight * b.weight == 0.0 || (a.closed && b.closed)) continue;
       Range r = grid.edges(d, e);
       r.lower[d] = a.lower;
       r.upper[d] = a.upper;
       r.lower[e] = b.lower;
       r.upper[e] = b.upper;
-      if (a.weight * b.weight > 0.0) total += a.weight * b.weight * sum_over(grid.cells, r, body);
+      total += a.weight * b.weight * sum_over(grid.cells, r, body);
     }
   }
   return total;
@@ -43,11 +49,15 @@ double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
       for (int e = 0; e < grid.dim; ++e) {
         const double speed = boundary.side(d, upper).velocity[e];
         if (e == d || speed == 0.0) continue;
-        Range wall = grid.all_faces(e);
-        if (grid.cells.periodic[e]) wall.upper[e] -= 1;
-        wall.lower[d] = upper ? grid.cells.n[d] : 0;
-        wall.upper[d] = wall.lower[d] + 1;
-        const double sum = sum_over(grid.cells, wall, stress(std::min(d, e), std::max(d, e)));
+        const auto of_edge = stress(std::min(d, e), std::max(d, e));
+        const auto on_wall = [&](Range faces) {  // those of component e along the wall
+          faces.lower[d] = upper ? grid.cells.n[d] : 0;
+          faces.upper[d] = faces.lower[d] + 1;
+          return sum_over(grid.cells, faces, of_edge);
+        };
+        double sum = on_wall(grid.inner_faces(e));
+        for (const bool far : {false, true})
+          if (grid.side(e, far).passes_fluid) sum += 0.5 * on_wall(grid.side_faces(e, far));
         total += (upper ? 1.0 : -1.0) * speed * sum * grid.cell_volume / grid.h[d];
       }
     }

@@ -80,7 +80,7 @@ int record_in_this_process(const granvof::Scene& scene, const RecordOptions& opt
   std::filesystem::create_directories(options.out);
   const std::string series = series_text(result);
   granvof::write_file_atomically(options.out / "series.csv", series);
-  const granvof::RunRecord record{{"demvof", options.command, 1, 1}, date, {}};
+  const granvof::RunRecord record{{"demvof", options.command, 1, 1, {}}, date, {}};
   granvof::write_file_atomically(options.out / "run.json",
                                  granvof::run_record_text(scene, record, progress, files_of(result, series),
                                                           {granvof::ExitState::finished, ""}));

@@ -45,7 +45,7 @@ class Session {
         gridded_(with_reference_grid(scene)),
         options_(options),
         line_(options.progress, scene.name),
-        writer_(granvof::RunWriter::fresh(options.out, gridded_, {"demvof", options.command, 1, 1},
+        writer_(granvof::RunWriter::fresh(options.out, gridded_, {"demvof", options.command, 1, 1, {}},
                                           monitor_columns(), options.force)) {}
 
   int go();  // to the end; the exit code

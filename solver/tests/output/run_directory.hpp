@@ -70,7 +70,7 @@ class RunDirectory : public testing::Test {
   TemporaryDirectory directory;
   std::filesystem::path run = directory.path() / "out" / "sample";
   Scene scene = small_scene();
-  RunStart start{"granvof", "granvof run sample.toml", 1, 2};
+  RunStart start{"granvof", "granvof run sample.toml", 1, 2, {}};
 };
 
 }  // namespace granvof::test

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     for (const int dimensions : {2, 3}) {
       const auto scene = dimensions == 2 ? test::small_scene() : test::small_scene_3d();
       const auto directory = std::filesystem::path(argv[1]) / (dimensions == 2 ? "2d" : "3d");
-      auto writer = RunWriter::fresh(directory, scene, {"granvof", "write_sample_run", 1, 1}, {});
+      auto writer = RunWriter::fresh(directory, scene, {"granvof", "write_sample_run", 1, 1, {}}, {});
       for (const double time : {0.0, 0.5}) {
         auto fields = test::numbered_fields(scene, time);
         if (dimensions == 3) fields.p_s = fields.f_s;

@@ -45,36 +45,51 @@ struct Account {
   double liquid_left = 0.0, solid_left = 0.0;
 };
 
-// Between slip walls what comes in goes through as a plug, along every axis and both ways.
-TEST(Plug, GoesThrough) {
-  for (int way = 0; way < 3; ++way) {
-    std::string walls = "[walls]\nall = \"slip\"\n";
-    walls += way == 0   ? "left = { inflow = 0.1 }\nright = { outflow_pressure = 0 }\n"
-             : way == 1 ? "right = { inflow = 0.1 }\nleft = { outflow_pressure = 0 }\n"
-                        : "bottom = { inflow = 0.1 }\ntop = { outflow_pressure = 0 }\n";
-    Simulation run(test::small_tank("plug", "size = [0.06, 0.06]", 0.06, walls.append(tolerances),
-                                    {"solid=false", "time.end=10"}));
-    Account account(run);
-    account.until(1.0);
-    ASSERT_FALSE(HasFatalFailure());
-    const int d = way == 2 ? 1 : 0;
-    const double speed = way == 1 ? -0.1 : 0.1;
-    double off = 0.0, across = 0.0;
-    const double* along = run.now.u_c[d].data();
-    const double* other = run.now.u_c[1 - d].data();
-    off = max_over(run.grid.cells, run.grid.flux_faces(d), 0.0,
-                   [=](std::ptrdiff_t c) { return std::fabs(along[c] - speed); });
-    across = max_over(run.grid.cells, run.grid.inner_faces(1 - d), 0.0,
-                      [=](std::ptrdiff_t c) { return std::fabs(other[c]); });
-    EXPECT_LT(off, 1e-6) << way;
-    EXPECT_LT(across, 1e-6) << way;
-    EXPECT_LT(account.monitors.liquid_volume_error(), 1e-12) << way;
-    EXPECT_NEAR(account.liquid_left, 0.0, 1e-9) << way;
-    EXPECT_LT(std::fabs(run.now.energy.residual),
-              1e-9 * energy_turnover(run.scene, account.start, run.now.energy))
-        << way;
+struct Way {
+  const char* walls;
+  int axis;
+  double speed;
+};
+
+class Plug : public ::testing::TestWithParam<Way> {
+ protected:
+  // Largest difference from a plug [m/s].
+  static double off(const Simulation& run) {
+    const Way way = GetParam();
+    const double *along = run.now.u_c[way.axis].data(), *across = run.now.u_c[1 - way.axis].data();
+    const double slower = max_over(run.grid.cells, run.grid.flux_faces(way.axis), 0.0,
+                                   [=](std::ptrdiff_t c) { return std::fabs(along[c] - way.speed); });
+    return max_over(run.grid.cells, run.grid.inner_faces(1 - way.axis), slower,
+                    [=](std::ptrdiff_t c) { return std::fabs(across[c]); });
   }
+};
+
+// Between slip walls what comes in goes through as a plug, along every axis and both ways, from the first
+// step on.
+TEST_P(Plug, GoesThrough) {
+  Simulation run(
+      test::small_tank("plug", "size = [0.06, 0.06]", 0.06,
+                       std::string("[walls]\nall = \"slip\"\n").append(GetParam().walls).append(tolerances),
+                       {"solid=false", "time.end=10"}));
+  Account account(run);
+  run.advance();
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_LT(off(run), 1e-6);
+  account.until(1.0);
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_LT(off(run), 1e-6);
+  EXPECT_LT(account.monitors.liquid_volume_error(), 1e-12);
+  EXPECT_NEAR(account.liquid_left, 0.0, 1e-9);
+  EXPECT_LT(std::fabs(run.now.energy.residual),
+            1e-9 * energy_turnover(run.scene, account.start, run.now.energy));
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, Plug,
+    ::testing::Values(Way{"left = { inflow = 0.1 }\nright = { outflow_pressure = 0 }\n", 0, 0.1},
+                      Way{"right = { inflow = 0.1 }\nleft = { outflow_pressure = 0 }\n", 0, -0.1},
+                      Way{"bottom = { inflow = 0.1 }\ntop = { outflow_pressure = 0 }\n", 1, 0.1},
+                      Way{"top = { inflow = 0.1 }\nbottom = { outflow_pressure = 0 }\n", 1, -0.1}));
 
 // Water comes into a channel of gas: what has come in is there, whatever it does there.
 TEST(Volume, OfWhatComesInIsThere) {

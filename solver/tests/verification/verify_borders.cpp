@@ -1,7 +1,10 @@
 // The borders of the stability map (compare/stability.toml), a test on both sides of each: what holds ends
-// without a warning of any monitor; what fails is seen, by the monitor named here.
+// with the warnings named here, most with none; what fails is seen, by the monitor named here.
 #include <algorithm>
 #include <fstream>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -27,43 +30,44 @@ nlohmann::json record_of(const std::string& scene, const std::vector<std::string
 struct Point {
   const char* scene;
   std::vector<std::string> overrides;
-  const char* allowed = "";  // a monitor whose warning is right, and no failure here
+  std::set<std::string> warns = {};  // the monitors that rightly do, these and no other
 };
 
 class Holds : public ::testing::TestWithParam<Point> {};
 
-TEST_P(Holds, EndsWithoutAWarning) {
+TEST_P(Holds, EndsAndWarnsOfNothingElse) {
   const nlohmann::json record = record_of(GetParam().scene, GetParam().overrides);
   EXPECT_EQ(record["exit"]["state"], "finished") << record["exit"]["reason"];
-  auto warnings = record["warnings"];
-  std::erase_if(warnings.get_ref<nlohmann::json::array_t&>(),
-                [](const auto& w) { return w["monitor"] == GetParam().allowed; });
-  EXPECT_EQ(warnings, nlohmann::json::array());
+  std::set<std::string> warned;
+  for (const auto& warning : record["warnings"]) warned.insert(warning["monitor"]);
+  EXPECT_EQ(warned, GetParam().warns);
 }
 
-// The ends of every axis along which nothing failed, and the near side of the borders.
+// The ends of every axis along which nothing failed, and the near side of the borders. Fluxes of first order
+// on so few cells make, at some of them, more than half of what physics dissipates.
 INSTANTIATE_TEST_SUITE_P(
     Borders, Holds,
-    ::testing::Values(Point{"collapse", {}}, Point{"float", {}}, Point{"slosh", {}},
-                      Point{"collapse", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}},
-                      Point{"float", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}},
-                      Point{"slosh", {"liquid.viscosity=1e-6"}}, Point{"slosh", {"liquid.viscosity=100"}},
-                      Point{"collapse", {"bed.solid_fraction=0.585"}, "elastic start"},
-                      Point{"collapse", {"bed.solid_fraction=0.629"}, "elastic start"},
-                      Point{"collapse", {"bed.solid_fraction=0.629", "solid.friction=0"}, "elastic start"},
-                      Point{"collapse", {"bed.solid_fraction=0.61", "solid.friction=0"}, "elastic start"},
-                      Point{"collapse", {"bed.solid_fraction=1e-7"}}, Point{"collapse", {"gas.density=0.1"}},
-                      Point{"collapse", {"gas.density=1000"}}, Point{"slosh", {"gas.density=0.1"}},
-                      Point{"float", {"solid.density=50"}}, Point{"float", {"solid.density=950"}},
-                      Point{"collapse", {"solid.density=1400"}}, Point{"collapse", {"solid.density=20000"}},
-                      Point{"collapse", {"solid.diameter=2e-4"}}, Point{"collapse", {"solid.diameter=5e-3"}},
-                      Point{"float", {"solid.diameter=5e-5"}}, Point{"collapse", {"contact.stiffness=1e4"}},
-                      Point{"collapse", {"contact.stiffness=1e12"}},
-                      Point{"collapse", {"contact.regularisation=1e-2"}},
-                      Point{"collapse", {"contact.regularisation=1e9"}},
-                      Point{"collapse", {"solid.restitution=0"}}, Point{"collapse", {"solid.restitution=1"}},
-                      Point{"collapse", {"solid.friction=0"}}, Point{"collapse", {"solid.friction=1.5"}},
-                      Point{"collapse", {"bed.height=0.005"}}));
+    ::testing::Values(
+        Point{"collapse", {}}, Point{"float", {}, {"energy created"}}, Point{"slosh", {}},
+        Point{"collapse", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}},
+        Point{"float", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}, {"energy created"}},
+        Point{"slosh", {"liquid.viscosity=1e-6"}}, Point{"slosh", {"liquid.viscosity=100"}},
+        Point{"collapse", {"bed.solid_fraction=0.585"}, {"elastic start", "energy created"}},
+        Point{"collapse", {"bed.solid_fraction=0.629"}, {"elastic start", "energy created"}},
+        Point{"collapse", {"bed.solid_fraction=0.629", "solid.friction=0"}, {"elastic start"}},
+        Point{"collapse", {"bed.solid_fraction=0.61", "solid.friction=0"}, {"elastic start"}},
+        Point{"collapse", {"bed.solid_fraction=1e-7"}}, Point{"collapse", {"gas.density=0.1"}},
+        Point{"collapse", {"gas.density=1000"}}, Point{"slosh", {"gas.density=0.1"}},
+        Point{"float", {"solid.density=50"}, {"energy created"}}, Point{"float", {"solid.density=950"}},
+        Point{"collapse", {"solid.density=1400"}, {"energy created"}},
+        Point{"collapse", {"solid.density=20000"}, {"energy created"}},
+        Point{"collapse", {"solid.diameter=2e-4"}}, Point{"collapse", {"solid.diameter=5e-3"}},
+        Point{"float", {"solid.diameter=5e-5"}}, Point{"collapse", {"contact.stiffness=1e4"}},
+        Point{"collapse", {"contact.stiffness=1e12"}}, Point{"collapse", {"contact.regularisation=1e-2"}},
+        Point{"collapse", {"contact.regularisation=1e9"}}, Point{"collapse", {"solid.restitution=0"}},
+        Point{"collapse", {"solid.restitution=1"}}, Point{"collapse", {"solid.friction=0"}},
+        Point{"collapse", {"solid.friction=1.5"}, {"energy created"}},
+        Point{"collapse", {"bed.height=0.005"}, {"energy created"}}));
 
 struct Wrong {
   const char* scene;
