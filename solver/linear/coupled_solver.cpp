@@ -71,8 +71,7 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
     bool stop = false;  // converged, broken down or out of iterations: look at the true residual
     if (fresh) {
       for (int c = 0; c < 2; ++c) std::copy_n(r_[c].data(), layout_.size, shadow_[c].data());
-      rho = dot(shadow_, r_);
-      direction(0.0, 0.0);
+      rho = first_direction();
       fresh = false;
     } else {
       const double previous = rho;
@@ -196,20 +195,17 @@ CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPai
 }
 
 double CoupledSolver::dot(const Pair& first, const Pair& second) const {
-  const int n = user_.n[0];
-  const auto components = sum_rows(layout_, [&](int j, int k) {
-    const std::ptrdiff_t row = layout_.index(0, j, k);
-    Sums<2> sums;
-    for (int c = 0; c < 2; ++c) {
-      const double *a = first[c].data() + row, *b = second[c].data() + row;
+  return sum_rows(std::array{layout_, layout_}, [&](std::size_t c) {
+    const double *a = first[c].data(), *b = second[c].data();
+    return [=, this](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      const int n = user_.n[0];
       double line = 0.0;
 #pragma omp simd reduction(+ : line)
-      for (int i = 0; i < n; ++i) line += a[i] * b[i];
-      sums.values[c] = line;
-    }
-    return sums;
+      for (int i = 0; i < n; ++i) line += a[row + i] * b[row + i];
+      return line;
+    };
   });
-  return components.values[0] + components.values[1];
 }
 
 // r -= factor what; the largest values of r.
@@ -254,6 +250,27 @@ void CoupledSolver::advance(double alpha, double omega, double* x1, double* x2) 
   }
 }
 
+// p = r, at a start; returns r . r.
+double CoupledSolver::first_direction() {
+  return sum_rows(std::array{layout_, layout_}, [&](std::size_t c) {
+    double* to = p_[c].data();
+    const double* from = r_[c].data();
+    return [=, this](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      const int n = user_.n[0];
+      double* p = to + row;
+      const double* r = from + row;
+      double line = 0.0;
+#pragma omp simd reduction(+ : line)
+      for (int i = 0; i < n; ++i) {
+        p[i] = r[i];
+        line += r[i] * r[i];
+      }
+      return line;
+    };
+  });
+}
+
 // p = r + beta (p - omega v)
 void CoupledSolver::direction(double beta, double omega) {
   const int n = user_.n[0];
@@ -262,13 +279,8 @@ void CoupledSolver::direction(double beta, double omega) {
       const std::ptrdiff_t row = layout_.index(0, j, k);
       double* p = p_[c].data() + row;
       const double *r = r_[c].data() + row, *v = v_[c].data() + row;
-      if (beta == 0.0) {
 #pragma omp simd
-        for (int i = 0; i < n; ++i) p[i] = r[i];
-      } else {
-#pragma omp simd
-        for (int i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
-      }
+      for (int i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
     });
   }
 }

@@ -61,6 +61,7 @@ class CoupledSolver {
   Norms subtract(double factor, const Pair& what);
   void advance(double alpha, double omega, double* x1, double* x2);
   double dot(const Pair& a, const Pair& b) const;
+  double first_direction();
   void direction(double beta, double omega);
 
   Layout user_;
