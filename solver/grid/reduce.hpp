@@ -226,13 +226,19 @@ inline double max_rows(const Layout& l, Body&& body) {
   return largest == largest ? largest : __builtin_inf();
 }
 
-// The same over several boxes that one set of processes shares, in one message: body(b) is the body for box
-// b, of values for the sum, of rows for the largest.
+// Over several boxes that one set of processes shares, in one message: body(b) is the body for box b, of
+// values for sum_over(), of rows for the others.
 template <typename Body>
 inline double sum_over(const std::vector<Layout>& boxes, Body&& body) {
   double total = 0.0;
   for (std::size_t b = 0; b < boxes.size(); ++b)
     total += of_process::sum_over(boxes[b], Range::all(boxes[b]), body(b));
+  return of_all(boxes.front(), total);
+}
+template <std::size_t N, typename Body>
+inline double sum_rows(const std::array<Layout, N>& boxes, Body&& body) {
+  double total = 0.0;
+  for (std::size_t b = 0; b < N; ++b) total += of_process::sum_rows(Range::all(boxes[b]), body(b));
   return of_all(boxes.front(), total);
 }
 template <typename Body>
