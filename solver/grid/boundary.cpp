@@ -14,8 +14,7 @@ void for_side(const Layout& l, int d, Body&& body) {
 
 }  // namespace
 
-Boundary::Boundary(const Grid& grid, const Communicator& communicator)
-    : grid_(grid), communicator_(communicator) {
+Boundary::Boundary(const Grid& grid) : grid_(grid) {
   grid.for_each_open_side([&](int d, bool upper) {
     const SideRule& rule = grid.side(d, upper);
     if (rule.pressure) set_beyond(side_pressure_, d, upper, rule.pressure);
@@ -45,7 +44,7 @@ void Boundary::set_beyond(Field& f, int d, bool upper, Value&& value) const {
 template <typename Rule>
 void Boundary::fill_cells(Field& f, Rule&& rule) const {
   const Layout& l = grid_.cells;
-  communicator_.exchange(l, f.data());
+  exchange(f);
   for (int d = 0; d < grid_.dim; ++d) {
     if (l.periodic[d]) continue;
     const std::ptrdiff_t s = l.stride[d], last = (l.n[d] - 1) * s;
@@ -156,7 +155,7 @@ void Boundary::fill_beyond(FaceField& u, int d, bool upper, Phase phase) const {
 
 void Boundary::fill_velocity(FaceField& u, Phase phase) const {
   const Layout& l = grid_.cells;
-  for (int c = 0; c < grid_.dim; ++c) communicator_.exchange(l, u[c].data());
+  for (int c = 0; c < grid_.dim; ++c) exchange(u[c]);
   // The faces on all sides first, then the ghosts: the rows of ghosts along a side then follow the side that
   // they lie beyond, whichever direction comes first. Upper ghosts before lower ones: with one cell between
   // the sides these mirror those.

@@ -8,7 +8,7 @@ namespace granvof {
 
 class Boundary {
  public:
-  Boundary(const Grid& grid, const Communicator& communicator);
+  explicit Boundary(const Grid& grid);
 
   // Zero normal gradient; `beyond` where given on sides that pass the fluid.
   void fill_scalar(Field& f) const;
@@ -28,9 +28,9 @@ class Boundary {
   // side's tangent; no normal gradient where a phase passes.
   void fill_velocity(FaceField& u, Phase phase) const;
 
-  // Refreshes only the ghosts of periodic directions.
-  void exchange(Field& f) const { communicator_.exchange(grid_.cells, f.data()); }
-  void exchange(double* values) const { communicator_.exchange(grid_.cells, values); }
+  // Refreshes only the ghosts that no side of the tank gives.
+  void exchange(Field& f) const { exchange(f.data()); }
+  void exchange(double* values) const { granvof::exchange(grid_.cells, values); }
 
   const SideRule& side(int direction, bool upper) const { return grid_.side(direction, upper); }
 
@@ -45,7 +45,6 @@ class Boundary {
   void fill_beyond(FaceField& u, int d, bool upper, Phase phase) const;
 
   const Grid& grid_;
-  const Communicator& communicator_;
   // Both at the index of the first cell beyond a side, allocated if a side has them.
   Field side_pressure_, flows_back_;
 };

@@ -25,10 +25,10 @@ void wrap(const Layout& l, T* values) {
 
 }  // namespace
 
-void SerialCommunicator::exchange(const Layout& layout, double* values) const {
+void join_ends(const Layout& layout, double* values) {
   wrap(layout, values);
 }
-void SerialCommunicator::exchange(const Layout& layout, float* values) const {
+void join_ends(const Layout& layout, float* values) {
   wrap(layout, values);
 }
 

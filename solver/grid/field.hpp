@@ -3,9 +3,9 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "solver/grid/grid.hpp"
+#include "solver/grid/memory.hpp"
 
 namespace granvof {
 
@@ -24,7 +24,7 @@ class Field {
   void fill(double value) { values_.assign(values_.size(), value); }
 
  private:
-  std::vector<double> values_;
+  Buffer<double> values_;
 };
 
 // One field a computed direction; entries beyond the grid's dimensions stay empty.

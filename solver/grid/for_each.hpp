@@ -1,13 +1,17 @@
-// Loops over the values of a box, rows in parallel, x innermost and vectorised.
+// Loops over the values of a box, rows in parallel, x innermost and vectorised. What they sum up or compare
+// is in reduce.hpp.
 //
-// A body may write only what belongs to its own index (gather, never scatter). Threads start only where a
-// loop is long enough to pay for them; `threads` comes from the run, there is no global state.
+// A body captures by value and writes only what belongs to its own index (gather, never scatter). Threads
+// start only where a loop is long enough to pay for them; `threads` comes from the run, there is no global
+// state.
 #pragma once
 
 #include <cstddef>
 
+#include <omp.h>
+
+#include "solver/grid/flush_denormals.hpp"
 #include "solver/grid/layout.hpp"
-#include "solver/grid/ordered_sum.hpp"
 
 namespace granvof {
 
@@ -66,52 +70,36 @@ inline void for_each(const Layout& l, Body&& body) {
   for_each(l, Range::all(l), body);
 }
 
-// Sum over the range of body(index), in an order that is that of the range alone.
-template <typename Body>
-inline double sum_over(const Layout& l, const Range& r, Body&& body) {
-  const int rows_y = r.upper[1] - r.lower[1];
-  const int rows_z = r.upper[2] - r.lower[2];
-  const int length = r.upper[0] - r.lower[0];
-  const int rows = rows_y * rows_z;
-  const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
-  std::array<double, sum_blocks> partial{};
-#pragma omp parallel for schedule(static) if (parallel)
-  for (int block = 0; block < sum_blocks; ++block) {
-    partial[block] = sum_of_block(rows, block, [&](int row) {
-      const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
-      double line = 0.0;
-#pragma omp simd reduction(+ : line)
-      for (int i = 0; i < length; ++i) line += body(start + i);
-      return line;
-    });
-  }
-  return sum_of_blocks(partial);
+// Where a second thread pays. A separate serial branch instead of `if` in the pragma: starting a team of one
+// costs more than a coarse level.
+inline bool worth_threads(const Range& r) {
+  const long count =
+      static_cast<long>(r.upper[0] - r.lower[0]) * (r.upper[1] - r.lower[1]) * (r.upper[2] - r.lower[2]);
+  return count > cells_that_pay_for_threads && omp_get_max_threads() > 1;
 }
 
-// Largest value over the range of body(index), at least `floor`; a NaN anywhere is returned as NaN.
+// body(j, k) for every row along x of the range, for loops over values of several layouts at once. Every
+// thread treats denormal numbers as the caller does.
 template <typename Body>
-inline double max_over(const Layout& l, const Range& r, double floor, Body&& body) {
-  const int rows_y = r.upper[1] - r.lower[1];
-  const int rows_z = r.upper[2] - r.lower[2];
-  const int length = r.upper[0] - r.lower[0];
-  const int rows = rows_y * rows_z;
-  const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
-  double largest = floor;
-  double not_numbers = 0.0;  // a count: a flag keeps the loop from being vectorised
-#pragma omp parallel for schedule(static) reduction(max : largest) reduction(+ : not_numbers) if (parallel)
-  for (int row = 0; row < rows; ++row) {
-    const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
-    double line = floor, odd = 0.0;
-#pragma omp simd reduction(max : line) reduction(+ : odd)
-    for (int i = 0; i < length; ++i) {
-      const double v = body(start + i);
-      line = v > line ? v : line;
-      odd += v == v ? 0.0 : 1.0;
+inline void for_each_row(const Range& r, Body&& body) {
+  const int ny = r.upper[1] - r.lower[1], rows = ny * (r.upper[2] - r.lower[2]);
+  if (worth_threads(r)) {
+    const bool flush = FlushDenormals::on();
+#pragma omp parallel
+    {
+      const FlushDenormals as_caller(flush);
+#pragma omp for schedule(static)
+      for (int row = 0; row < rows; ++row) body(r.lower[1] + row % ny, r.lower[2] + row / ny);
     }
-    largest = line > largest ? line : largest;
-    not_numbers += odd;
+  } else {
+    for (int k = r.lower[2]; k < r.upper[2]; ++k)
+      for (int j = r.lower[1]; j < r.upper[1]; ++j) body(j, k);
   }
-  return not_numbers == 0.0 ? largest : __builtin_nan("");
+}
+
+template <typename Body>
+inline void for_each_row(const Layout& l, Body&& body) {
+  for_each_row(Range::all(l), body);
 }
 
 }  // namespace granvof

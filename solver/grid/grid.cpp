@@ -4,7 +4,7 @@ namespace granvof {
 
 namespace {
 
-Layout layout_of(const Scene& scene) {
+Layout layout_of(const Scene& scene, const Communicator* communicator) {
   std::array<int, 3> n = scene.grid.cells, ghost{};
   std::array<bool, 3> periodic{};
   for (int d = 0; d < scene.dimensions; ++d) {
@@ -12,14 +12,16 @@ Layout layout_of(const Scene& scene) {
     periodic[d] = side_rule(scene, 2 * d).joined;
   }
   if (scene.dimensions == 2) n[2] = 1;
-  return Layout::make(n, ghost, periodic);
+  Layout cells = Layout::make(n, ghost, periodic);
+  cells.communicator = communicator;
+  return cells;
 }
 
 }  // namespace
 
-Grid::Grid(const Scene& scene)
+Grid::Grid(const Scene& scene, const Communicator* communicator)
     : dim(scene.dimensions),
-      cells(layout_of(scene)),
+      cells(layout_of(scene, communicator)),
       h(scene.grid.spacing),
       obstacles(cells, dim, h, scene.obstacles) {
   for (int side = 0; side < 6; ++side) sides[side] = side_rule(scene, side);

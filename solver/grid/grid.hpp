@@ -5,9 +5,9 @@
 // stride away.
 #pragma once
 
-#include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
 #include "solver/grid/obstacles.hpp"
+#include "solver/grid/reduce.hpp"
 #include "solver/grid/sides/side_rule.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -25,7 +25,8 @@ struct Grid {
   std::array<SideRule, 6> sides;  // indexed by SideIndex
   Obstacles obstacles;
 
-  explicit Grid(const Scene& scene);
+  // `communicator` to those who hold the rest of the tank must outlive this; none: it is whole.
+  explicit Grid(const Scene& scene, const Communicator* communicator = nullptr);
 
   // Every column of cells is open from the floor to the top, and nothing flows through other sides than that.
   bool has_whole_columns() const;

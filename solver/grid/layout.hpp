@@ -8,6 +8,8 @@
 
 namespace granvof {
 
+class Communicator;
+
 struct Layout {
   std::array<int, 3> n{1, 1, 1};                      // values of the box, ghosts not counted
   std::array<int, 3> ghost{0, 0, 0};                  // ghost layers on each side of a direction
@@ -15,6 +17,7 @@ struct Layout {
   std::array<std::ptrdiff_t, 3> stride{1, 1, 1};      // distance of neighbours in memory
   std::ptrdiff_t origin = 0;                          // index of (0, 0, 0)
   std::size_t size = 1;                               // allocated values, ghosts counted
+  const Communicator* communicator = nullptr;  // to those who hold the rest of the box; none: it is whole
 
   // A compact layout: `ghost` layers in every direction with more than one value or with periodic ends.
   static Layout make(std::array<int, 3> n, std::array<int, 3> ghost, std::array<bool, 3> periodic) {

@@ -12,23 +12,46 @@
 #include <cstddef>
 #include <vector>
 
-#include "solver/grid/communicator.hpp"
 #include "solver/grid/for_each.hpp"
 #include "solver/grid/layout.hpp"
-#include "solver/linear/buffer.hpp"
-#include "solver/linear/rows.hpp"
+#include "solver/grid/memory.hpp"
+#include "solver/grid/reduce.hpp"
+#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/tolerance.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 
 using Components = std::array<double*, 3>;  // nullptr beyond the number of components
 using ConstComponents = std::array<const double*, 3>;
 
+// Body for rows: the largest |body(index)| weight[index] of one, nullptr for weights of 1; not finite if
+// one of them is not.
+template <typename Body>
+auto largest_of_row(const Layout& l, const double* weight, Body body) {
+  return [l, weight, body](int j, int k) {
+    const std::ptrdiff_t row = l.index(0, j, k);
+    const int n = l.n[0];
+    double line = 0.0, poison = 0.0;  // 0 * v is 0 unless v is not finite
+    const auto take = [&](double v) {
+      line = v > line ? v : line;
+      poison += 0.0 * v;
+    };
+    if (weight == nullptr) {
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+      for (int i = 0; i < n; ++i) take(std::fabs(body(row + i)));
+    } else {
+#pragma omp simd reduction(max : line) reduction(+ : poison)
+      for (int i = 0; i < n; ++i) take(std::fabs(body(row + i) * weight[row + i]));
+    }
+    return line + poison;
+  };
+}
+
 class ConjugateGradient {
  public:
-  // One layout per component (1 to 3), all alive as values here. `communicator` must outlive this.
-  ConjugateGradient(const std::vector<Layout>& layouts, const Communicator& communicator)
-      : layouts_(layouts), communicator_(communicator) {
+  // One layout per component (1 to 3), of boxes that the same processes share.
+  explicit ConjugateGradient(const std::vector<Layout>& layouts) : layouts_(layouts) {
     assert(!layouts.empty() && layouts.size() <= 3);
     for (std::size_t c = 0; c < layouts_.size(); ++c) {
       for (auto* set : {&r_, &z_, &p_, &q_}) {
@@ -98,23 +121,18 @@ class ConjugateGradient {
       for_each(layouts_[c], [=](std::ptrdiff_t i) { p[i] = from[i]; });
     }
     apply(p_, q_);
-    double largest = 0.0;
-    for (std::size_t c = 0; c < layouts_.size(); ++c) {
-      const double *q = q_[c], *b = rhs[c], *w = weight[c];
+    return max_rows(layouts_, [&](std::size_t c) {
+      const double *q = q_[c], *b = rhs[c];
       double* r = r_[c];
-      largest =
-          std::max(largest, rows_max(layouts_[c], w, [=](std::ptrdiff_t i) { return r[i] = b[i] - q[i]; }));
-    }
-    return communicator_.max(largest);
+      return largest_of_row(layouts_[c], weight[c], [=](std::ptrdiff_t i) { return r[i] = b[i] - q[i]; });
+    });
   }
 
   double dot(const Components& a, const Components& b) const {
-    double total = 0.0;
-    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+    return sum_over(layouts_, [&](std::size_t c) {
       const double *u = a[c], *v = b[c];
-      total += sum_over(layouts_[c], Range::all(layouts_[c]), [=](std::ptrdiff_t i) { return u[i] * v[i]; });
-    }
-    return communicator_.sum(total);
+      return [=](std::ptrdiff_t i) { return u[i] * v[i]; };
+    });
   }
 
   void combine(double beta) {
@@ -130,45 +148,17 @@ class ConjugateGradient {
 
   // x += alpha p, r -= alpha q; the largest value of r, weighted.
   double advance(double alpha, const Components& x, const ConstComponents& weight) {
-    double largest = 0.0;
-    for (std::size_t c = 0; c < layouts_.size(); ++c) {
+    return max_rows(layouts_, [&](std::size_t c) {
       const double *p = p_[c], *q = q_[c];
       double *to = x[c], *r = r_[c];
-      largest = std::max(largest, rows_max(layouts_[c], weight[c], [=](std::ptrdiff_t i) {
-                           to[i] += alpha * p[i];
-                           return r[i] -= alpha * q[i];
-                         }));
-    }
-    return communicator_.max(largest);
-  }
-
-  // Largest |body(index)| weight[index] over the box, nullptr for weights of 1; not finite if one is not a
-  // number.
-  template <typename Body>
-  static double rows_max(const Layout& l, const double* weight, Body&& body) {
-    if (weight == nullptr) return rows_max(l, body);
-    return rows_max(l, [=](std::ptrdiff_t i) { return body(i) * weight[i]; });
-  }
-
-  // Largest |body(index)| over the box; infinity if one is not a number.
-  template <typename Body>
-  static double rows_max(const Layout& l, Body&& body) {
-    return max_rows(l, [&](int j, int k) {
-      const std::ptrdiff_t row = l.index(0, j, k);
-      const int n = l.n[0];
-      double line = 0.0, poison = 0.0;  // 0 * v is 0 unless v is not finite
-#pragma omp simd reduction(max : line) reduction(+ : poison)
-      for (int i = 0; i < n; ++i) {
-        const double v = std::fabs(body(row + i));
-        line = v > line ? v : line;
-        poison += 0.0 * v;
-      }
-      return line + poison;
+      return largest_of_row(layouts_[c], weight[c], [=](std::ptrdiff_t i) {
+        to[i] += alpha * p[i];
+        return r[i] -= alpha * q[i];
+      });
     });
   }
 
   std::vector<Layout> layouts_;
-  const Communicator& communicator_;
   std::vector<Buffer<double>> buffers_;
   Components r_{}, z_{}, p_{}, q_{};
 };

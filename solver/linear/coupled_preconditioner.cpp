@@ -1,9 +1,10 @@
 // The preconditioner of CoupledSolver, as its header describes it.
+#include "solver/grid/flush_denormals.hpp"
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/coupled_solver.hpp"
 #include "solver/linear/face_operator.hpp"
-#include "solver/linear/flush_denormals.hpp"
 #include "solver/linear/multigrid_rows.hpp"
-#include "solver/linear/rows.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 namespace {
@@ -48,16 +49,16 @@ void CoupledSolver::set(const CoupledSystem& s) {
   for (int d = 0; d < 3; ++d) {
     if (!coupled_[d]) continue;
     float* to = k21_[d].data();
-    for_rows(layout_, [&](int j, int k) {
+    for_each_row(layout_, [&](int j, int k) {
       const std::ptrdiff_t here = layout_.index(0, j, k);
       const double* from = s.k21[d] + user_.index(0, j, k);
 #pragma omp simd
       for (int i = 0; i < n; ++i) to[here + i] = static_cast<float>(from[i]);
     });
-    if (any_periodic(layout_)) communicator_.exchange(layout_, to);
+    exchange(layout_, to);
   }
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    for_rows(layout_, [&](int j, int k) {
+    for_each_row(layout_, [&](int j, int k) {
       const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
       const rows::FaceRow b = rows::face_row(s.k12, user_, j, k, zeros_.data());
       float* theta = theta_.data() + layout_.index(0, j, k);
@@ -86,31 +87,31 @@ void CoupledSolver::precondition(const Pair& from, FloatPair& to) {
   float *rhs1 = pressure_.residual(), *rhs2 = granular_.residual();
   const double *r1 = from[0].data(), *r2 = from[1].data();
   float *y1 = to[0].data(), *y2 = to[1].data();
-  for_rows(layout_, [&](int j, int k) {
+  for_each_row(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
 #pragma omp simd
     for (std::ptrdiff_t i = row; i < row + n; ++i) rhs1[i] = scale1[i] * static_cast<float>(r1[i]);
   });
   const float* p = pressure_.cycle(pressure_smoothing);
   const FlushDenormals flush;
-  for_rows(layout_, [&](int j, int k) {
+  for_each_row(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
 #pragma omp simd
     for (std::ptrdiff_t i = row; i < row + width; ++i) y1[i] = scale1[i] * p[i];
   });
-  if (any_periodic(layout_)) communicator_.exchange(layout_, y1);
+  exchange(layout_, y1);
   const rows::Stencil k21{k21_[0].data(), k21_[1].data(), k21_[2].data(), layout_.stride[1],
                           layout_.stride[2]};
   const int length = layout_.periodic[0] ? n : width;  // periodic ghosts of the faces are not 0
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    for_rows(layout_, [&](int j, int k) {
+    for_each_row(layout_, [&](int j, int k) {
       const std::ptrdiff_t row = layout_.index(0, j, k);
       rows::scaled_difference<X, Y, Z>(length, k21.at(row), r2 + row, y1 + row, scale2 + row, rhs2 + row);
     });
   });
   const float* g = granular_.cycle(granular_smoothing);
   const float* theta = theta_.data();
-  for_rows(layout_, [&](int j, int k) {
+  for_each_row(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
 #pragma omp simd
     for (std::ptrdiff_t i = row; i < row + width; ++i) {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/face_operator.hpp"
 #include "solver/linear/multigrid_rows.hpp"
-#include "solver/linear/rows.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 namespace {
@@ -31,12 +32,10 @@ bool CoupledSolver::Norms::finite() const {
   return std::isfinite(first) && std::isfinite(second);
 }
 
-CoupledSolver::CoupledSolver(const Layout& layout, const Communicator& communicator,
-                             const std::array<double, 3>& spacing)
+CoupledSolver::CoupledSolver(const Layout& layout, const std::array<double, 3>& spacing)
     : user_(layout),
-      communicator_(communicator),
-      pressure_(layout, communicator, spacing),
-      granular_(layout, communicator, spacing),
+      pressure_(layout, spacing),
+      granular_(layout, spacing),
       layout_(pressure_.layout()),
       zeros_(static_cast<std::size_t>(padded(layout.n[0]))),
       theta_(layout_.size) {
@@ -72,23 +71,11 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
     bool stop = false;  // converged, broken down or out of iterations: look at the true residual
     if (fresh) {
       for (int c = 0; c < 2; ++c) std::copy_n(r_[c].data(), layout_.size, shadow_[c].data());
-      rho = direction(0.0, 0.0);
+      rho = first_direction();
       fresh = false;
     } else {
       const double previous = rho;
-      rho = 0.0;
-      for (int c = 0; c < 2; ++c) {
-        const double *a = shadow_[c].data(), *b = r_[c].data();
-        rho += sum_rows(layout_, [&](int j, int k) {
-          const std::ptrdiff_t row = layout_.index(0, j, k);
-          const int n = user_.n[0];
-          double line = 0.0;
-#pragma omp simd reduction(+ : line)
-          for (int i = 0; i < n; ++i) line += a[row + i] * b[row + i];
-          return line;
-        });
-      }
-      rho = communicator_.sum(rho);
+      rho = dot(shadow_, r_);
       direction((rho / previous) * (alpha / omega), omega);
     }
     if (rho == 0.0 || !std::isfinite(rho)) stop = true;
@@ -96,7 +83,7 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
     if (!stop) {
       precondition(p_, y_);
       ++report.iterations;
-      const double shadow_v = communicator_.sum(multiply(system, y_, v_, shadow_).with);
+      const double shadow_v = multiply(system, y_, v_, shadow_).with;
       alpha = rho / shadow_v;
       if (shadow_v == 0.0 || !std::isfinite(alpha)) stop = true;
     }
@@ -110,9 +97,7 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
     if (!stop) {
       precondition(r_, w_);
       ++report.iterations;
-      Products p = multiply(system, w_, t_, r_);
-      p.with = communicator_.sum(p.with);
-      p.self = communicator_.sum(p.self);
+      const Products p = multiply(system, w_, t_, r_);
       omega = p.self > 0.0 ? p.with / p.self : 0.0;
       if (!std::isfinite(omega)) omega = 0.0;
       advance(alpha, omega, x1, x2);
@@ -160,38 +145,37 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
   const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
     double* to = t_[c].data();
-    for_rows(layout_,
-             [&](int j, int k) { std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k)); });
-    if (any_periodic(layout_)) communicator_.exchange(layout_, to);
+    for_each_row(layout_, [&](int j, int k) {
+      std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k));
+    });
+    exchange(layout_, to);
   }
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    for_rows(layout_, [&](int j, int k) {
+    for_each_row(layout_, [&](int j, int k) {
       product_row<X, Y, Z>(s, t_[0].data(), t_[1].data(), j, k, r_[0].data(), r_[1].data());
     });
   });
   Norms norms;
   for (int c = 0; c < 2; ++c) {
-    const double norm = max_rows(layout_, [&](int j, int k) {
+    (c == 0 ? norms.first : norms.second) = max_rows(layout_, [&](int j, int k) {
       double* r = r_[c].data() + layout_.index(0, j, k);
       const double* b = rhs[c] + user_.index(0, j, k);
 #pragma omp simd
       for (int i = 0; i < n; ++i) r[i] = b[i] - r[i];
       return largest(n, r);
     });
-    (c == 0 ? norms.first : norms.second) = communicator_.max(norm);
     // t is reused as a product later: nothing but the box may stay in it
     if (any_periodic(layout_)) std::fill_n(t_[c].data(), layout_.size, 0.0);
   }
   return norms;
 }
 
-// out = A v and its products, of this process.
+// out = A v and its products.
 CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPair& v, Pair& out,
                                                 const Pair& with) {
-  if (any_periodic(layout_))
-    for (auto& component : v) communicator_.exchange(layout_, component.data());
+  for (auto& component : v) exchange(layout_, component.data());
   const int n = user_.n[0];
-  return with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+  const auto products = with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
     return sum_rows(layout_, [&](int j, int k) {
       product_row<X, Y, Z>(s, v[0].data(), v[1].data(), j, k, out[0].data(), out[1].data());
       const std::ptrdiff_t row = layout_.index(0, j, k);
@@ -204,8 +188,23 @@ CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPai
           b += o[i] * o[i];
         }
       }
-      return Products{a, b};
+      return Sums<2>{{a, b}};
     });
+  });
+  return {products.values[0], products.values[1]};
+}
+
+double CoupledSolver::dot(const Pair& first, const Pair& second) const {
+  return sum_rows(std::array{layout_, layout_}, [&](std::size_t c) {
+    const double *a = first[c].data(), *b = second[c].data();
+    return [=, this](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      const int n = user_.n[0];
+      double line = 0.0;
+#pragma omp simd reduction(+ : line)
+      for (int i = 0; i < n; ++i) line += a[row + i] * b[row + i];
+      return line;
+    };
   });
 }
 
@@ -214,7 +213,7 @@ CoupledSolver::Norms CoupledSolver::subtract(double factor, const Pair& what) {
   Norms norms;
   const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
-    const double norm = max_rows(layout_, [&](int j, int k) {
+    (c == 0 ? norms.first : norms.second) = max_rows(layout_, [&](int j, int k) {
       const std::ptrdiff_t row = layout_.index(0, j, k);
       double* r = r_[c].data() + row;
       const double* w = what[c].data() + row;
@@ -227,7 +226,6 @@ CoupledSolver::Norms CoupledSolver::subtract(double factor, const Pair& what) {
       }
       return line + poison;
     });
-    (c == 0 ? norms.first : norms.second) = communicator_.max(norm);
   }
   return norms;
 }
@@ -237,7 +235,7 @@ void CoupledSolver::advance(double alpha, double omega, double* x1, double* x2) 
   const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
     double* x = c == 0 ? x1 : x2;
-    for_rows(layout_, [&](int j, int k) {
+    for_each_row(layout_, [&](int j, int k) {
       const std::ptrdiff_t row = layout_.index(0, j, k);
       double* to = x + user_.index(0, j, k);
       const float *y = y_[c].data() + row, *w = w_[c].data() + row;
@@ -252,30 +250,39 @@ void CoupledSolver::advance(double alpha, double omega, double* x1, double* x2) 
   }
 }
 
-// p = r + beta (p - omega v); returns r . r, which is rho at a start.
-double CoupledSolver::direction(double beta, double omega) {
+// p = r, at a start; returns r . r.
+double CoupledSolver::first_direction() {
+  return sum_rows(std::array{layout_, layout_}, [&](std::size_t c) {
+    double* to = p_[c].data();
+    const double* from = r_[c].data();
+    return [=, this](int j, int k) {
+      const std::ptrdiff_t row = layout_.index(0, j, k);
+      const int n = user_.n[0];
+      double* p = to + row;
+      const double* r = from + row;
+      double line = 0.0;
+#pragma omp simd reduction(+ : line)
+      for (int i = 0; i < n; ++i) {
+        p[i] = r[i];
+        line += r[i] * r[i];
+      }
+      return line;
+    };
+  });
+}
+
+// p = r + beta (p - omega v)
+void CoupledSolver::direction(double beta, double omega) {
   const int n = user_.n[0];
-  double total = 0.0;
   for (int c = 0; c < 2; ++c) {
-    total += sum_rows(layout_, [&](int j, int k) {
+    for_each_row(layout_, [&](int j, int k) {
       const std::ptrdiff_t row = layout_.index(0, j, k);
       double* p = p_[c].data() + row;
       const double *r = r_[c].data() + row, *v = v_[c].data() + row;
-      double line = 0.0;
-      if (beta == 0.0) {
-#pragma omp simd reduction(+ : line)
-        for (int i = 0; i < n; ++i) {
-          p[i] = r[i];
-          line += r[i] * r[i];
-        }
-      } else {
 #pragma omp simd
-        for (int i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
-      }
-      return line;
+      for (int i = 0; i < n; ++i) p[i] = r[i] + beta * (p[i] - omega * v[i]);
     });
   }
-  return communicator_.sum(total);
 }
 
 }  // namespace granvof::linear

@@ -7,10 +7,10 @@
 
 #include <array>
 
-#include "solver/grid/communicator.hpp"
 #include "solver/grid/layout.hpp"
-#include "solver/linear/buffer.hpp"
+#include "solver/grid/memory.hpp"
 #include "solver/linear/multigrid.hpp"
+#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/tolerance.hpp"
 
 namespace granvof::linear {
@@ -29,9 +29,8 @@ struct CoupledSystem {
 
 class CoupledSolver {
  public:
-  // Systems whose arrays all have `layout`. `communicator` must outlive this; `spacing` as in Multigrid.
-  CoupledSolver(const Layout& layout, const Communicator& communicator,
-                const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
+  // Systems whose arrays all have `layout`. `spacing` as in Multigrid.
+  explicit CoupledSolver(const Layout& layout, const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
 
   // x1 and x2 are the guess on entry. Converged when each row's residual is below max(absolute, relative
   // times its own initial residual); the report holds the larger of the two rows. With m11 = 0 everywhere x1
@@ -48,11 +47,6 @@ class CoupledSolver {
   // Scalar products of one product with the matrix: with the given pair, and with itself.
   struct Products {
     double with = 0.0, self = 0.0;
-    Products& operator+=(const Products& other) {
-      with += other.with;
-      self += other.self;
-      return *this;
-    }
   };
   using Pair = std::array<Buffer<double>, 2>;
   using FloatPair = std::array<Buffer<float>, 2>;
@@ -66,10 +60,11 @@ class CoupledSolver {
   Products multiply(const CoupledSystem& system, FloatPair& v, Pair& out, const Pair& with);
   Norms subtract(double factor, const Pair& what);
   void advance(double alpha, double omega, double* x1, double* x2);
-  double direction(double beta, double omega);
+  double dot(const Pair& a, const Pair& b) const;
+  double first_direction();
+  void direction(double beta, double omega);
 
   Layout user_;
-  const Communicator& communicator_;
   Multigrid pressure_, granular_;
   Layout layout_;  // padded, of everything below
   std::array<bool, 3> coupled_{};

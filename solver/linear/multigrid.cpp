@@ -4,9 +4,10 @@
 #include <cassert>
 #include <utility>
 
-#include "solver/linear/flush_denormals.hpp"
+#include "solver/grid/flush_denormals.hpp"
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/multigrid_rows.hpp"
-#include "solver/linear/rows.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 namespace {
@@ -19,9 +20,8 @@ rows::Stencil stencil(const std::array<Buffer<float>, 3>& face, const Layout& l)
 
 }  // namespace
 
-Multigrid::Multigrid(const Layout& layout, const Communicator& communicator,
-                     const std::array<double, 3>& spacing)
-    : user_(layout), communicator_(communicator), spacing_(spacing) {
+Multigrid::Multigrid(const Layout& layout, const std::array<double, 3>& spacing)
+    : user_(layout), spacing_(spacing) {
   // Chebyshev recurrence on [lowest, highest], the eigenvalues of D^-1 A that smoothing is to damp.
   constexpr double lowest = 0.5, highest = 2.0;
   const double centre = 0.5 * (highest + lowest), half = 0.5 * (highest - lowest);
@@ -35,10 +35,6 @@ Multigrid::Multigrid(const Layout& layout, const Communicator& communicator,
   build({layout.n[0] > 1, layout.n[1] > 1, layout.n[2] > 1});
 }
 
-void Multigrid::exchange(const Layout& l, float* values) const {
-  if (any_periodic(l)) communicator_.exchange(l, values);
-}
-
 void Multigrid::smooth(const Level& l, const float* x, const float* old, float old_factor, float* out,
                        Sweep s) const {
   const float keep = 1.0F + s.momentum - s.step, back = -s.momentum * old_factor;
@@ -46,7 +42,7 @@ void Multigrid::smooth(const Level& l, const float* x, const float* old, float o
   const float* rhs = l.rhs.data();
   const int width = padded(l.layout.n[0]);
   with_directions(l.coupled, [&]<bool X, bool Y, bool Z>() {
-    for_rows(l.layout, [&](int j, int k) {
+    for_each_row(l.layout, [&](int j, int k) {
       const std::ptrdiff_t row = l.layout.index(0, j, k);
       if (old)
         rows::sweep<X, Y, Z>(width, faces.at(row), rhs + row, x + row, old + row, keep, back, s.step,
@@ -81,7 +77,7 @@ void Multigrid::restrict_residual(const Level& f, const float* x, Level& c) cons
   const int width = padded(f.layout.n[0]);
   const int ry = f.coarsened[1] ? 2 : 1, rz = f.coarsened[2] ? 2 : 1;
   with_directions(f.coupled, [&]<bool X, bool Y, bool Z>() {
-    for_rows(c.layout, [&](int j, int k) {
+    for_each_row(c.layout, [&](int j, int k) {
       alignas(64) float sum[block];
       const int ny = std::min(ry, f.layout.n[1] - ry * j), nz = std::min(rz, f.layout.n[2] - rz * k);
       for (int start = 0; start < width; start += block) {
@@ -108,7 +104,7 @@ void Multigrid::restrict_residual(const Level& f, const float* x, Level& c) cons
 void Multigrid::inject(const Level& f, const Level& c, const float* e, float* x) const {
   const int ry = f.coarsened[1] ? 2 : 1, rz = f.coarsened[2] ? 2 : 1;
   const int width = padded(f.layout.n[0]);
-  for_rows(c.layout, [&](int j, int k) {
+  for_each_row(c.layout, [&](int j, int k) {
     alignas(64) float expanded[block];
     const int ny = std::min(ry, f.layout.n[1] - ry * j), nz = std::min(rz, f.layout.n[2] - rz * k);
     for (int start = 0; start < width; start += block) {
@@ -146,7 +142,7 @@ float* Multigrid::descend(std::size_t depth, int smoothing, double* dot) {
   const float own = smoothing > 1 ? first * (1.0F + second.momentum - second.step) + second.step : first;
   const rows::Stencil faces = stencil(l.face, l.layout);
   with_directions(l.coupled, [&]<bool X, bool Y, bool Z>() {
-    for_rows(l.layout, [&](int j, int k) {
+    for_each_row(l.layout, [&](int j, int k) {
       const std::ptrdiff_t row = l.layout.index(0, j, k);
       if (smoothing > 1)
         rows::first_two<X, Y, Z>(width, faces.at(row), rhs + row, own, second.step * first, x + row);
@@ -198,13 +194,13 @@ void apply_in(Multigrid& mg, const Layout& user, const T* r, T* z, int smoothing
   const int n = l.n[0];
   const float* scale = mg.scale();
   float* rhs = mg.residual();
-  for_rows(l, [&](int j, int k) {
+  for_each_row(l, [&](int j, int k) {
     const std::ptrdiff_t from = user.index(0, j, k), to = l.index(0, j, k);
 #pragma omp simd
     for (int i = 0; i < n; ++i) rhs[to + i] = scale[to + i] * static_cast<float>(r[from + i]);
   });
   const float* x = mg.cycle(smoothing);
-  for_rows(l, [&](int j, int k) {
+  for_each_row(l, [&](int j, int k) {
     const std::ptrdiff_t to = user.index(0, j, k), from = l.index(0, j, k);
 #pragma omp simd
     for (int i = 0; i < n; ++i) {

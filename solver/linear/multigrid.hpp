@@ -13,10 +13,10 @@
 #include <array>
 #include <vector>
 
-#include "solver/grid/communicator.hpp"
 #include "solver/grid/layout.hpp"
-#include "solver/linear/buffer.hpp"
+#include "solver/grid/memory.hpp"
 #include "solver/linear/faces.hpp"
+#include "solver/linear/padded_layout.hpp"
 
 namespace granvof::linear {
 
@@ -33,10 +33,9 @@ class Multigrid {
  public:
   static constexpr int max_smoothing = 8;
 
-  // `communicator` must outlive this. `spacing` (any unit): a direction is coarsened only while its cells are
+  // `spacing` (any unit): a direction is coarsened only while its cells are
   // less than about twice as long as the shortest ones, since weakly coupled directions need no coarsening.
-  Multigrid(const Layout& layout, const Communicator& communicator,
-            const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
+  explicit Multigrid(const Layout& layout, const std::array<double, 3>& spacing = {1.0, 1.0, 1.0});
 
   // Takes new coefficients. Faces and masses >= 0. No allocation unless other directions become coupled than
   // in the last call (at first: all with more than one cell).
@@ -54,11 +53,10 @@ class Multigrid {
   const Layout& layout() const { return levels_.front().layout; }
   const float* scale() const { return levels_.front().scale.data(); }
   float* residual() { return levels_.front().rhs.data(); }
-  // The answer stays valid until the next call. `dot`, if given, receives r . z of this process.
+  // The answer stays valid until the next call. `dot`, if given, receives r . z.
   const float* cycle(int smoothing, double* dot = nullptr);
 
   int level_count() const { return static_cast<int>(levels_.size()); }
-  const Communicator& communicator() const { return communicator_; }
 
  private:
   struct Level {
@@ -79,7 +77,6 @@ class Multigrid {
   void scale_level(Level& level);
   void coarsen(const Level& fine, Level& coarse) const;
   void weigh(Level& fine, const Level& coarse) const;
-  void exchange(const Layout& l, float* values) const;
   float* descend(std::size_t depth, int smoothing, double* dot);
   void smooth(const Level& l, const float* x, const float* old, float old_factor, float* out, Sweep s) const;
   double smooth_and_dot(const Level& l, const float* x, const float* old, float* out, Sweep s) const;
@@ -87,7 +84,6 @@ class Multigrid {
   void inject(const Level& fine, const Level& coarse, const float* e, float* x) const;
 
   Layout user_;
-  const Communicator& communicator_;
   std::array<double, 3> spacing_;
   std::array<Sweep, max_smoothing> sweeps_;
   std::vector<Level> levels_;

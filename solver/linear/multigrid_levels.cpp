@@ -3,8 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/multigrid.hpp"
-#include "solver/linear/rows.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 namespace {
@@ -47,7 +48,7 @@ void Multigrid::build(const std::array<bool, 3>& coupled) {
       last = last && !l.coupled[d];
     }
     // Ghosts do not depend on what is coupled, so that the layout never changes.
-    l.layout = padded_layout(n, user_.periodic);
+    l.layout = padded_layout(n, user_);
     const std::size_t size = l.layout.size;
     for (int d = 0; d < 3; ++d)
       if (l.coupled[d]) l.face[d] = Buffer<float>(size);
@@ -74,7 +75,7 @@ void Multigrid::set(const Coefficients& coefficients) {
   if (coupled != levels_.front().coupled) build(coupled);
 
   Level& finest = levels_.front();
-  for_rows(finest.layout, [&](int j, int k) {
+  for_each_row(finest.layout, [&](int j, int k) {
     const std::ptrdiff_t row = finest.layout.index(0, j, k);
     coefficients.masses(j, k, finest.mass.data() + row);
     const std::array<int, 3> position{0, j, k};
@@ -109,7 +110,7 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) const {
     const auto width = [&](int c) { return std::min(2, lf.n[d] - 2 * c); };
     return 0.5F * static_cast<float>(width(i) + width(lower));
   };
-  for_rows(lc, [&](int j, int k) {
+  for_each_row(lc, [&](int j, int k) {
     const std::ptrdiff_t out = lc.index(0, j, k);
     const int rows_y = std::min(ratio[1], lf.n[1] - ratio[1] * j),
               rows_z = std::min(ratio[2], lf.n[2] - ratio[2] * k);
@@ -152,7 +153,7 @@ void Multigrid::scale_level(Level& l) {
   const int n = lay.n[0];
   const std::ptrdiff_t sy = lay.stride[1], sz = lay.stride[2];
   const auto [cx, cy, cz] = l.coupled;
-  for_rows(lay, [&, cx = cx, cy = cy, cz = cz](int j, int k) {
+  for_each_row(lay, [&, cx = cx, cy = cy, cz = cz](int j, int k) {
     const std::ptrdiff_t row = lay.index(0, j, k);
     float* root = l.root.data() + row;
     float* scale = l.scale.data() + row;
@@ -174,7 +175,7 @@ void Multigrid::scale_level(Level& l) {
     }
   });
   exchange(lay, l.scale.data());
-  for_rows(lay, [&](int j, int k) {
+  for_each_row(lay, [&](int j, int k) {
     const std::ptrdiff_t row = lay.index(0, j, k);
     const float* scale = l.scale.data() + row;
     for (int d = 0; d < 3; ++d) {
@@ -191,7 +192,7 @@ void Multigrid::scale_level(Level& l) {
 
 void Multigrid::weigh(Level& fine, const Level& coarse) const {
   const Layout& lf = fine.layout;
-  for_rows(lf, [&](int j, int k) {
+  for_each_row(lf, [&](int j, int k) {
     const std::ptrdiff_t row = lf.index(0, j, k);
     const float* root = fine.root.data() + row;
     float* weight = fine.weight.data() + row;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/grid/flush_denormals.hpp"
+#include "solver/grid/reduce.hpp"
 #include "solver/linear/face_operator.hpp"
-#include "solver/linear/flush_denormals.hpp"
-#include "solver/linear/rows.hpp"
+#include "solver/linear/with_directions.hpp"
 
 namespace granvof::linear {
 
@@ -18,12 +19,10 @@ double power_of_two_near(double x) {
 
 }  // namespace
 
-ScalarSolver::ScalarSolver(const Layout& layout, const Communicator& communicator,
-                           const std::array<double, 3>& spacing, int smoothing)
+ScalarSolver::ScalarSolver(const Layout& layout, const std::array<double, 3>& spacing, int smoothing)
     : user_(layout),
-      communicator_(communicator),
       smoothing_(smoothing),
-      multigrid_(layout, communicator, spacing),
+      multigrid_(layout, spacing),
       layout_(multigrid_.layout()),
       zeros_(static_cast<std::size_t>(padded(layout.n[0]))),
       r_(layout_.size),
@@ -52,13 +51,12 @@ Report ScalarSolver::solve(const Faces& faces, const double* mass, const double*
     }
     double previous = rz;
     const float* z = multigrid_.cycle(smoothing_, &rz);
-    rz = communicator_.sum(rz);
     ++report.iterations;
     combine(z, fresh ? 0.0 : rz / previous);
     fresh = false;
-    const double pq = communicator_.sum(multiply(faces, mass));
+    const double pq = multiply(faces, mass);
     const bool broken = !(pq > 0.0) || !std::isfinite(pq) || !std::isfinite(rz);
-    if (!broken) norm = communicator_.max(advance(rz / pq / unit_, x));
+    if (!broken) norm = advance(rz / pq / unit_, x);
     if (!broken && norm > target && std::isfinite(norm) && report.iterations < tolerance.max_iterations)
       continue;
 
@@ -77,11 +75,12 @@ double ScalarSolver::true_residual(const Faces& faces, const double* mass, const
                                    const double* x) {
   double* guess = guess_.data();
   const int n = user_.n[0];
-  for_rows(layout_,
-           [&](int j, int k) { std::copy_n(x + user_.index(0, j, k), n, guess + layout_.index(0, j, k)); });
-  if (any_periodic(layout_)) communicator_.exchange(layout_, guess);
+  for_each_row(layout_, [&](int j, int k) {
+    std::copy_n(x + user_.index(0, j, k), n, guess + layout_.index(0, j, k));
+  });
+  exchange(layout_, guess);
   const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
-  return communicator_.max(with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
+  return with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
     return max_rows(layout_, [&](int j, int k) {
       const std::ptrdiff_t here = layout_.index(0, j, k), given = user_.index(0, j, k);
       const double *v = guess + here, *m = mass + given, *b = rhs + given;
@@ -96,12 +95,12 @@ double ScalarSolver::true_residual(const Faces& faces, const double* mass, const
       }
       return line + poison;
     });
-  }));
+  });
 }
 
-// q = A p, both per unit; returns p . q of this process.
+// q = A p, both per unit; returns p . q.
 double ScalarSolver::multiply(const Faces& faces, const double* mass) {
-  if (any_periodic(layout_)) communicator_.exchange(layout_, p_.data());
+  exchange(layout_, p_.data());
   const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
   const int n = user_.n[0];
   return with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
@@ -125,7 +124,7 @@ void ScalarSolver::combine(const float* z, double beta) {
   const FlushDenormals flush;
   const auto b = static_cast<float>(beta);
   const int width = padded(layout_.n[0]);
-  for_rows(layout_, [&](int j, int k) {
+  for_each_row(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
     float* p = p_.data() + row;
     const float *s = multigrid_.scale() + row, *from = z + row;
@@ -167,7 +166,7 @@ double ScalarSolver::advance(double alpha, double* x) {
 void ScalarSolver::scale_residual() {
   const int n = user_.n[0];
   const double unit = unit_;
-  for_rows(layout_, [&](int j, int k) {
+  for_each_row(layout_, [&](int j, int k) {
     const std::ptrdiff_t row = layout_.index(0, j, k);
     const float* s = multigrid_.scale() + row;
     const double* r = r_.data() + row;

@@ -3,20 +3,20 @@
 
 #include <array>
 
-#include "solver/grid/communicator.hpp"
 #include "solver/grid/layout.hpp"
-#include "solver/linear/buffer.hpp"
+#include "solver/grid/memory.hpp"
 #include "solver/linear/faces.hpp"
 #include "solver/linear/multigrid.hpp"
+#include "solver/linear/padded_layout.hpp"
 #include "solver/linear/tolerance.hpp"
 
 namespace granvof::linear {
 
 class ScalarSolver {
  public:
-  // Systems whose arrays all have `layout`. `communicator` must outlive this; `spacing` as in Multigrid.
-  ScalarSolver(const Layout& layout, const Communicator& communicator,
-               const std::array<double, 3>& spacing = {1.0, 1.0, 1.0}, int smoothing = 2);
+  // Systems whose arrays all have `layout`. `spacing` as in Multigrid.
+  explicit ScalarSolver(const Layout& layout, const std::array<double, 3>& spacing = {1.0, 1.0, 1.0},
+                        int smoothing = 2);
 
   // Solves mass x + sum over faces of a (x - x_neighbour) = rhs; x is the guess on entry. With mass 0
   // everywhere and no open end the matrix is singular: rhs must then sum to 0, and x is one of the solutions.
@@ -32,7 +32,6 @@ class ScalarSolver {
   void scale_residual();
 
   Layout user_;
-  const Communicator& communicator_;
   int smoothing_;
   Multigrid multigrid_;
   Layout layout_;  // padded, of everything below; that of the finest level

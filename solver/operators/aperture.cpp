@@ -7,10 +7,10 @@ namespace granvof {
 
 Aperture::Aperture(const Grid& grid, const Scene& scene) : grid_(grid), gate_(scene.gate), open_(grid, 0.0) {
   for (int d = 0; d < grid.dim; ++d) {
-    Field& open = open_[d];
+    double* open = open_[d].data();
     // Periodic faces carry their copies in the ghosts, so the range includes both ends there.
     Range r = grid.cells.periodic[d] ? grid.all_faces(d) : grid.fluid_faces(d);
-    for_each(grid.cells, r, [&](std::ptrdiff_t c) { open[c] = 1.0; });
+    for_each(grid.cells, r, [=](std::ptrdiff_t c) { open[c] = 1.0; });
   }
   for (int d = 0; d < grid.dim; ++d)
     for (const std::ptrdiff_t face : grid.obstacles.faces(d)) open_[d][face] = 0.0;

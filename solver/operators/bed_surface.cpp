@@ -76,10 +76,11 @@ void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, con
     if (!grid.side(vertical, upper).bears_grains) continue;
     const std::ptrdiff_t out = upper ? grid.stride(vertical) : -grid.stride(vertical);
     const double half = (upper ? -0.5 : 0.5) * normal_gravity(scene) * grid.h[vertical];
-    const int j = upper ? grid.cells.n[vertical] - 1 : 0;
-    for_each(grid.cells, row_of_cells(grid, j, 1), [=](std::ptrdiff_t c) {
+    const int beyond = upper ? grid.cells.n[vertical] : -1;
+    for_each(grid.cells, row_of_cells(grid, beyond, 1), [=](std::ptrdiff_t b) {
+      const std::ptrdiff_t c = b - out;
       const double weight = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g));
-      p[c + out] = p[c] + 2.0 * std::min(std::max(weight, 0.0), p[c]);
+      p[b] = p[c] + 2.0 * std::min(std::max(weight, 0.0), p[c]);
     });
   }
 }

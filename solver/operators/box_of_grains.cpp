@@ -15,27 +15,21 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia) {
   const int n = l.n[0];
   // A cell of at least f_s gives its x-faces at least half of that.
   constexpr double least = 0.5 * least_solid_fraction;
-  std::array<int, 3> first = l.n, last{-1, -1, -1};
-  for (int k = 0; k < l.n[2]; ++k) {
-    for (int j = 0; j < l.n[1]; ++j) {
-      const double* row = inertia.f_s[0].data() + l.index(0, j, k);
-      int from = 0, to = n;
-      while (from <= n && row[from] < least) ++from;
-      if (from > n) continue;
-      while (row[to] < least) --to;
-      const std::array<int, 3> low{from - 1, j, k}, high{to, j, k};
-      for (int d = 0; d < 3; ++d) {
-        first[d] = std::min(first[d], low[d]);
-        last[d] = std::max(last[d], high[d]);
-      }
-    }
-  }
+  const double* face = inertia.f_s[0].data();
+  const Range grains = bounds_of_rows(l, [=](int j, int k) {
+    const double* row = face + l.index(0, j, k);
+    int from = 0, to = n;
+    while (from <= n && row[from] < least) ++from;
+    if (from > n) return Piece{};
+    while (row[to] < least) --to;
+    return Piece{from - 1, to + 1};
+  });
   Range box{{0, 0, 0}, {0, 0, 0}};
-  if (last[0] < 0) return box;
+  if (is_empty(grains)) return box;
   for (int d = 0; d < 3; ++d) {
     const bool whole = d >= grid.dim || l.periodic[d];
-    box.lower[d] = whole ? 0 : std::max(first[d] - 1, 0) / block * block;
-    box.upper[d] = whole ? l.n[d] : std::min((last[d] + 2 + block - 1) / block * block, l.n[d]);
+    box.lower[d] = whole ? 0 : std::max(grains.lower[d] - 1, 0) / block * block;
+    box.upper[d] = whole ? l.n[d] : std::min((grains.upper[d] + 1 + block - 1) / block * block, l.n[d]);
   }
   return box;
 }

@@ -57,12 +57,12 @@ class Closure {
     double *q = flux_c_[vertical].data(), *gain = gain_.data();
     const int last = grid_.side(vertical, true).passes_fluid ? n_[vertical] : n_[vertical] - 1;
     Range row = grid_.all_cells();
-    for (int j = 0; j < last; ++j) {
+    for (int j = 1; j <= last; ++j) {
       row.lower[vertical] = j;
       row.upper[vertical] = j + 1;
       for_each(grid_.cells, row, [=](std::ptrdiff_t c) {
-        q[c + s] += h * gain[c];
-        gain[c + s] += gain[c];
+        q[c] += h * gain[c - s];
+        gain[c] += gain[c - s];
       });
     }
   }

@@ -35,11 +35,11 @@ constexpr double least_slope = 1e-3;
 constexpr double nothing_left = 1e-5;
 
 // P_s(f_s) of a cell at a trial f_s.
-auto law_of_cells(const SolidPressureState& state, const closures::SolidLaw& law) {
+auto law_of_cells(const SolidPressureState& state, const closures::SolidLaw& law_of_scene) {
   const double *theta = state.theta.data(), *e = state.restitution.data(), *rest = state.resting.data(),
                *packing = state.packing.data();
   const double* viscous = state.viscous_stress ? state.viscous_stress->data() : nullptr;
-  return [=, &law](std::ptrdiff_t c, double f) {
+  return [=, law = law_of_scene](std::ptrdiff_t c, double f) {
     return closures::solid_pressure(f, {theta[c], e[c], rest[c], packing[c], viscous ? viscous[c] : 0.0},
                                     law);
   };
@@ -47,14 +47,13 @@ auto law_of_cells(const SolidPressureState& state, const closures::SolidLaw& law
 
 }  // namespace
 
-CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                 const Communicator& communicator)
+CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
       law_(scene),
       load_(scales_of(scene).pressure),
-      solver_(grid.cells, communicator, grid.h),
+      solver_(grid.cells, grid.h),
       fraction_(scene.numerics.solid_flux),
       us_by_pc_(grid),
       us_by_ps_(grid),

@@ -39,8 +39,7 @@ struct PressureReport {
 
 class CoupledPressure {
  public:
-  CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                  const Communicator& communicator);
+  CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // In: predicted u_s, u_c (old pressure gradients included), old p_c, p_s, f_s and u_s_old with ghosts
   // filled, inertia and beta on faces. Out: new u_s, u_c on their faces, p_c, p_s, and the volume fluxes per

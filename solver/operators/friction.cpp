@@ -16,8 +16,7 @@ constexpr int smoothing = 2;
 
 }  // namespace
 
-Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                   const Communicator& communicator)
+Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
@@ -27,7 +26,6 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       lambda_(grid),
       divergence_(grid),
       marked_(grid),
-      communicator_(communicator),
       direct_(grid),
       component_mass_(grid),
       weight_(grid),
@@ -65,9 +63,9 @@ void Friction::fit_box(const FaceInertia& inertia) {
     faces_[d] = faces_of(grid_, box_, d);
     if (is_empty(box_)) continue;
     layouts.push_back(faces_[d]);
-    multigrid_.emplace_back(faces_[d], communicator_, grid_.h);
+    multigrid_.emplace_back(faces_[d], grid_.h);
   }
-  if (!layouts.empty()) solver_.emplace(layouts, communicator_);
+  if (!layouts.empty()) solver_.emplace(layouts);
 }
 
 void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) {
@@ -97,7 +95,7 @@ linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, cons
   apply(mass, u, r);
   set_own_diffusion(mass);
   set_weights(mass);
-  const bool thin = direct_.factorise(box_, form(mass));
+  const bool thin = everywhere(grid_.cells, direct_.factorise(box_, form(mass)));
   if (!thin) set_multigrids();
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]

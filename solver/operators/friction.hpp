@@ -28,7 +28,7 @@ namespace granvof {
 
 class Friction {
  public:
-  Friction(const Grid& grid, const Scene& scene, const Boundary& boundary, const Communicator& communicator);
+  Friction(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // Solves for u_s on the faces that hold grains (f_s >= least_solid_fraction, open); elsewhere u_s keeps its
   // value and acts as a known velocity. u_s holds the guess. mass [kg/m3 s], rhs [Pa/m]; viscosities from the
@@ -87,7 +87,6 @@ class Friction {
   Field mu_vertical_;                  // with part-cells, of the vertical normal strain [Pa s]
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
-  const Communicator& communicator_;
   std::optional<linear::ConjugateGradient> solver_;
   std::vector<linear::Multigrid> multigrid_;  // one a component
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion

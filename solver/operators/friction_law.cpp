@@ -78,12 +78,12 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   const double n = scene_.contact.regularisation;
   const FrictionLaw friction =
       scene_.model.contact_friction ? scene_.model.friction_law : FrictionLaw::constant;
-  const Contact& contact = scene_.contact;
+  const Contact contact = scene_.contact;
   const double mu_2 = contact.fast_friction;
   const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
   const bool by_rate = scene_.model.shear_dilatancy && scene_.model.dilatancy_friction &&
                        scene_.model.critical_packing == CriticalPacking::by_rate;
-  const auto viscosity_at = [=, &contact](const Contacts& sum, double norm) {
+  const auto viscosity_at = [=](const Contacts& sum, double norm) {
     const double share = 1.0 / sum.count, pressure = share * sum.pressure, mu_c = share * sum.fluid;
     double law = eta, dilatancy = share * sum.dilatancy;
     if (friction == FrictionLaw::inertial)

@@ -29,12 +29,12 @@ void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) 
         const double shift = moving_walls ? 2.0 * boundary_.side(d, upper).velocity[c] : 0.0;
         Range row = box_;
         row.upper[c] += 1;
-        row.lower[d] = upper ? l.n[d] - 1 : 0;
+        row.lower[d] = upper ? l.n[d] : -1;
         row.upper[d] = row.lower[d] + 1;
         if (upper ? box_.upper[d] < l.n[d] : box_.lower[d] > 0) continue;
-        const std::ptrdiff_t out = upper ? s : -s;
+        const std::ptrdiff_t inward = upper ? -s : s;
         double* v = u[c];
-        for_each(l, row, [=](std::ptrdiff_t i) { v[i + out] = shift - v[i]; });
+        for_each(l, row, [=](std::ptrdiff_t i) { v[i] = shift - v[i + inward]; });
       }
     }
   }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/grid/for_each_row.hpp"
 #include "solver/operators/component_pointers.hpp"
 #include "solver/operators/friction.hpp"
 #include "solver/operators/stress_power.hpp"
@@ -37,17 +36,11 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
     };
     power.on_grains += work_on(end);
     power.solved_for += work_on(x);
-    double all = 0.0;
-    for_each_row(grid_.cells, grid_.all_cells(), [&](std::ptrdiff_t start, int n) {
-#pragma omp simd reduction(+ : all)
-      for (int i = 0; i < n; ++i) {
-        const std::ptrdiff_t c = start + i;
-        const double stretch = (x[c + s] - x[c]) * inv_h;
-        all += 2.0 * mu[c] * stretch * stretch;
-        spent[c] += 2.0 * kinetic[c] * stretch * stretch;
-      }
+    total += sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+      const double stretch = (x[c + s] - x[c]) * inv_h;
+      spent[c] += 2.0 * kinetic[c] * stretch * stretch;
+      return 2.0 * mu[c] * stretch * stretch;
     });
-    total += all;
     for (int e = d + 1; e < grid_.dim; ++e) {
       const double *tau = shear_[plane_index(d, e)].data(), *edge = mu_edge_[plane_index(d, e)].data();
       const std::ptrdiff_t t = grid_.stride(e);
@@ -78,8 +71,10 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   power.kinetic = grid_.cell_volume *
                   sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return spent[c]; });
   power.friction = std::max(total * grid_.cell_volume - power.kinetic, 0.0);
-  power.walls = wall_power(grid_, boundary_,
-                           [&](int d, int e, std::ptrdiff_t c) { return shear_[plane_index(d, e)][c]; });
+  power.walls = wall_power(grid_, boundary_, [&](int d, int e) {
+    const double* tau = shear_[plane_index(d, e)].data();
+    return [=](std::ptrdiff_t c) { return tau[c]; };
+  });
   return power;
 }
 

@@ -48,8 +48,9 @@ Field loss_to_bumps(const Grid& grid, const Boundary& boundary) {
       const auto& bumps = boundary.side(d, upper).bumps;
       if (!bumps) continue;
       if (loss.empty()) loss = Field(grid);
+      double* out = loss.data();
       const double taken = closures::bumpy_wall_loss(bumps->restitution) / grid.h[d];
-      for_each(grid.cells, grid.side_cells(d, upper), [&](std::ptrdiff_t c) { loss[c] += taken; });
+      for_each(grid.cells, grid.side_cells(d, upper), [=](std::ptrdiff_t c) { out[c] += taken; });
     }
   }
   return loss;
@@ -57,14 +58,13 @@ Field loss_to_bumps(const Grid& grid, const Boundary& boundary) {
 
 }  // namespace
 
-GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                         const Communicator& communicator)
+GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
       laws_(scene),
       wall_loss_(loss_to_bumps(grid, boundary)),
-      solver_(grid.cells, communicator, grid.h),
+      solver_(grid.cells, grid.h),
       conductivity_(grid),
       kappa_(grid),
       mass_(grid),
@@ -97,7 +97,7 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
   const double rho_s = scene_.solid.density;
   const double *f = f_s_new.data(), *mu = rheology.kinetic_viscosity.data(), *e = rheology.restitution.data();
   double *kappa = kappa_.data(), *mass = mass_.data(), *rhs = rhs_.data(), *t = theta_new.data();
-  for_each(grid_.cells, [=, &laws = laws_](std::ptrdiff_t c) {
+  for_each(grid_.cells, [=, laws = laws_](std::ptrdiff_t c) {
     const bool grains = f[c] >= least_solid_fraction;
     kappa[c] = grains ? laws.conductivity_to_viscosity(f[c], e[c]) * mu[c] : 0.0;
     mass[c] = grains ? 1.5 * f[c] * rho_s / dt : 0.0;
@@ -162,7 +162,7 @@ class LocalBalances {
  private:
   double rho_s_, d_s_;
   bool work_;
-  const closures::Collisions& laws_;
+  closures::Collisions laws_;
   const double *wall_loss_, *f_s_, *e_, *div_, *beta_;
 };
 
@@ -179,7 +179,7 @@ void GranularTemperature::predict(double dt, const Field& theta, const Field& f_
   const double *f = f_s.data(), *t = theta.data(), *sq = strain.squared.data(),
                *div = strain.divergence.data();
   double* out = predicted.data();
-  for_each(grid_.cells, [=, &at](std::ptrdiff_t c) {
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
     out[c] = 0.0;
     if (f[c] < least_collisional_fraction) return;
     const LocalBalance b = at(c);
@@ -208,7 +208,7 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
   const double *f0 = f_s.data(), *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
   double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
          *pressed = pressure_.data(), *excess = excess_.data(), *spared = spared_.data();
-  for_each(grid_.cells, [=, &at](std::ptrdiff_t c) {
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
     collided[c] = dragged[c] = pressed[c] = spared[c] = 0.0;
     if (f[c] < least_collisional_fraction) {
       excess[c] = 1.5 * (steady ? f0[c] : f[c]) * rho_s * t[c] + dt * produced[c];

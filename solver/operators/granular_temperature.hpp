@@ -29,8 +29,7 @@ struct GranularLosses {
 
 class GranularTemperature {
  public:
-  GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                      const Communicator& communicator);
+  GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // Theta that the kinetic viscosity of the step is taken at [m2/s2]: the old one, but at least a small share
   // of what the strain would make in each cell by itself within dt, nothing carried; in the algebraic form

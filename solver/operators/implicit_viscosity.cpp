@@ -15,8 +15,7 @@ constexpr int most_iterations = 100;
 
 }  // namespace
 
-ImplicitViscosity::ImplicitViscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                     const Communicator& communicator)
+ImplicitViscosity::ImplicitViscosity(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       boundary_(boundary),
       least_velocity_(velocity_tolerance * scales_of(scene).velocity),
@@ -27,7 +26,7 @@ ImplicitViscosity::ImplicitViscosity(const Grid& grid, const Scene& scene, const
       diagonal_(grid),
       rhs_(grid),
       increment_(grid) {
-  for (int d = 0; d < grid.dim; ++d) solver_.emplace_back(grid.face_layout(d), communicator, grid.h);
+  for (int d = 0; d < grid.dim; ++d) solver_.emplace_back(grid.face_layout(d), grid.h);
 }
 
 // Rows of component d. A closed face is known (no increment): what couples to it goes to the diagonal.

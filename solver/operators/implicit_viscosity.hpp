@@ -24,8 +24,7 @@ namespace granvof {
 
 class ImplicitViscosity {
  public:
-  ImplicitViscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                    const Communicator& communicator);
+  ImplicitViscosity(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // `viscosity`: f_c (mu_c + mu_t) of the cells [Pa s], ghosts filled; u_old: u_c^n. u_c and u_s change on
   // the open faces of the fluid and on those that hold grains; `predicted_c` gains what the force does to the

@@ -31,7 +31,7 @@ void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, cons
 template <typename Law>
 void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
                           const FaceInertia& inertia, const PartCells& part_cells) {
-  const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
+  const Fluid gas = scene_.gas, liquid = scene_.liquid;
   const double d_s = scene_.solid.diameter;
   const double* a = alpha.data();
   for (int d = 0; d < grid_.dim; ++d) {
@@ -49,7 +49,7 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
     const double* side1 = slip_[e].data();
     const double* side2 = three ? slip_[g].data() : side1;
     const std::ptrdiff_t s1 = grid_.stride(e), s2 = three ? grid_.stride(g) : 0;
-    for_each(grid_.cells, grid_.inner_faces(d), [=, &gas, &liquid](std::ptrdiff_t c) {
+    for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
       if (f[c] < least_solid_fraction) {
         beta[c] = 0.0;
         return;
@@ -80,7 +80,7 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
   const int dim = grid_.dim;
   const double* f = f_s.data();
   double* beta = of_cells_.data();
-  for_each(grid_.cells, [=, &gas, &liquid](std::ptrdiff_t c) {
+  for_each(grid_.cells, [=](std::ptrdiff_t c) {
     beta[c] = 0.0;
     if (f[c] < least_solid_fraction) return;
     double square = 0.0;

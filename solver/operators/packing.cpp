@@ -8,19 +8,20 @@ namespace granvof {
 
 void shear_packing(const Grid& grid, const Scene& scene, double dt, const Field& f_s,
                    const Rheology& rheology, const StrainRate& strain, Field& packing) {
-  const Contact& contact = scene.contact;
+  const Contact contact = scene.contact;
   const bool by_rate = scene.model.critical_packing == CriticalPacking::by_rate;
   const double rho_s = scene.solid.density, d_s = scene.solid.diameter;
-  const double *f = f_s.data(), *pressure = rheology.enduring_pressure.data();
+  const double *f = f_s.data(), *pressure = rheology.enduring_pressure.data(), *sq = strain.squared.data(),
+               *div = strain.divergence.data();
   const double* mu = by_rate ? rheology.pore_viscosity.data() : nullptr;
   double* p = packing.data();
-  for_each(grid.cells, [=, &contact, &strain](std::ptrdiff_t c) {
+  for_each(grid.cells, [=](std::ptrdiff_t c) {
     const double loosest = contact.solid_fraction_min;
     if (f[c] < loosest) {
       p[c] = loosest;
       return;
     }
-    const double rate = deviatoric_shear_rate(strain, c);
+    const double rate = deviatoric_shear_rate(sq[c], div[c]);
     double critical = contact.critical_solid_fraction;
     if (by_rate && pressure[c] > 0.0)
       critical = closures::bounded_critical_packing(

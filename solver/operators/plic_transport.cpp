@@ -16,11 +16,14 @@ struct Cut {
   std::array<bool, 3> mirrored{};
 };
 
+// Distance of the next cell in memory along each axis; 0 for z in two dimensions.
+using Neighbours = std::array<std::ptrdiff_t, 3>;
+
 // Youngs' normal, out of the liquid, in units of the cell; all zero where alpha is uniform around the cell.
-std::array<double, 3> liquid_normal(const Grid& grid, const double* a, std::ptrdiff_t c) {
+std::array<double, 3> liquid_normal(const Neighbours& step, const double* a, std::ptrdiff_t c) {
   std::array<double, 3> n{};
-  const std::ptrdiff_t x = grid.stride(0), y = grid.stride(1), z = grid.dim == 3 ? grid.stride(2) : 0;
-  const int deep = grid.dim == 3 ? 1 : 0;
+  const auto [x, y, z] = step;
+  const int deep = z != 0 ? 1 : 0;
   for (int k = -deep; k <= deep; ++k)
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
@@ -34,8 +37,8 @@ std::array<double, 3> liquid_normal(const Grid& grid, const double* a, std::ptrd
 }
 
 // The plane of a cell, false where its neighbours give it no direction.
-bool cut_of(const Grid& grid, const double* a, std::ptrdiff_t c, Cut& cut) {
-  std::array<double, 3> n = liquid_normal(grid, a, c);
+bool cut_of(const Neighbours& step, const double* a, std::ptrdiff_t c, Cut& cut) {
+  std::array<double, 3> n = liquid_normal(step, a, c);
   const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
   if (!(sum > pure)) return false;
   for (int i = 0; i < 3; ++i) {
@@ -78,8 +81,9 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
   const double dt_h = dt / grid_.h[d];
   double *a = alpha.data(), *fc = f_c_.data(), *liquid = flux_.data();
   const double* q = flux_c[d].data();
+  const Neighbours step{grid_.stride(0), grid_.stride(1), grid_.dim == 3 ? grid_.stride(2) : 0};
   flux_.fill(0.0);
-  for_each(grid_.cells, grid_.flux_faces(d), [=, this](std::ptrdiff_t c) {
+  for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) {
     const bool forward = q[c] > 0.0;
     const std::ptrdiff_t donor = forward ? c - s : c;
     const double of_donor = dt_h / fc[donor];  // a flux as the part of the donor that it takes
@@ -87,7 +91,7 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
     const std::array<double, 2> width{std::max(-q[donor], 0.0) * of_donor,
                                       std::max(q[donor + s], 0.0) * of_donor};
     Cut cut;
-    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width[end] <= pure || !cut_of(grid_, a, donor, cut)) {
+    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width[end] <= pure || !cut_of(step, a, donor, cut)) {
       liquid[c] = a[donor] * q[c];
       return;
     }

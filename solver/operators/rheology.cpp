@@ -25,10 +25,10 @@ void Rheology::update_viscous_contacts(const Grid& grid, const Scene& scene, con
   boundary.fill_scalar(pore_viscosity);
   if (!scene.model.viscous_contact_pressure) return;
   if (viscous_stress.empty()) viscous_stress = Field(grid);
-  const double* f = f_s.data();
+  const double *f = f_s.data(), *sq = strain.squared.data(), *div = strain.divergence.data();
   double* stress = viscous_stress.data();
-  for_each(grid.cells, [=, &strain](std::ptrdiff_t c) {
-    stress[c] = f[c] < least_solid_fraction ? 0.0 : mu[c] * deviatoric_shear_rate(strain, c);
+  for_each(grid.cells, [=](std::ptrdiff_t c) {
+    stress[c] = f[c] < least_solid_fraction ? 0.0 : mu[c] * deviatoric_shear_rate(sq[c], div[c]);
   });
 }
 
@@ -37,8 +37,8 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
                       const StrainRate& strain) {
   const bool in_part = scene.numerics.bed_surface == BedSurface::part_cells;
   if (in_part) part_cells.update(grid, scene, f_s, alpha, p_s);
-  const Solid& solid = scene.solid;
-  const Contact& contact = scene.contact;
+  const Solid solid = scene.solid;
+  const Contact contact = scene.contact;
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
   const closures::SolidLaw law(scene);
   update_viscous_contacts(grid, scene, boundary, f_s, alpha, strain);
@@ -47,14 +47,14 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
                *touching = packing.data();
   double *e = restitution.data(), *p = enduring_pressure.data(), *tan_psi = dilatancy_tangent.data();
   const bool sheared = scene.model.shear_dilatancy && scene.model.dilatancy_friction;
-  const auto borne = [=, &law](std::ptrdiff_t c, double resting) {
+  const auto borne = [=](std::ptrdiff_t c, double resting) {
     return closures::enduring_pressure(f[c], {t[c], e[c], resting, touching[c], viscous ? viscous[c] : 0.0},
                                        law);
   };
   const double e0 = scene.model.frictional_restitution
                         ? closures::frictional_restitution(solid.restitution, solid.friction)
                         : solid.restitution;
-  for_each(grid.cells, [=, &solid, &contact](std::ptrdiff_t c) {
+  for_each(grid.cells, [=](std::ptrdiff_t c) {
     e[c] = p[c] = 0.0;
     if (f[c] < least_solid_fraction) return;
     e[c] =
@@ -72,12 +72,13 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (scene.model.agitation_drag) {
     double* beta = agitated_drag.data();
     scene.model.drag_law.with([&](auto drag_law) {
-      for_each(grid.cells, [=, &scene](std::ptrdiff_t c) {
+      const Fluid gas = scene.gas, liquid = scene.liquid;
+      for_each(grid.cells, [=](std::ptrdiff_t c) {
         beta[c] = 0.0;
         if (p[c] <= 0.0) return;
-        const double drag = closures::drag_coefficient(drag_law, f[c], a[c], 0.0, scene.gas, scene.liquid,
-                                                       scene.solid.diameter);
-        beta[c] = closures::agitated_drag(drag, f[c], p[c], scene.solid.density, scene.solid.diameter);
+        const double drag =
+            closures::drag_coefficient(drag_law, f[c], a[c], 0.0, gas, liquid, solid.diameter);
+        beta[c] = closures::agitated_drag(drag, f[c], p[c], solid.density, solid.diameter);
       });
     });
     boundary.fill_scalar(agitated_drag);
@@ -85,7 +86,7 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (in_part) {
     const double rho_l = scene.liquid.density, rho_g = scene.gas.density;
     double* side = free_side.data();
-    for_each(grid.cells, [=, &solid](std::ptrdiff_t c) {
+    for_each(grid.cells, [=](std::ptrdiff_t c) {
       const bool part = weight[c] > 0.0 && f[c] < touching[c] && borne(c, 0.0) < p[c];
       side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
     });
@@ -101,14 +102,14 @@ void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, co
   const double rho_s = scene.solid.density, d_s = scene.solid.diameter;
   const double *f = f_s.data(), *t = theta.data(), *e = restitution.data();
   double* mu = kinetic_viscosity.data();
-  for_each(grid.cells, [=, &laws](std::ptrdiff_t c) {
+  for_each(grid.cells, [=](std::ptrdiff_t c) {
     mu[c] = f[c] < least_solid_fraction ? 0.0 : laws.viscosity(f[c], t[c], e[c], rho_s, d_s);
   });
   boundary.fill_scalar(kinetic_viscosity);
   if (!grid.has_bumps()) return;
   if (bump_pressure.empty()) bump_pressure = Field(grid);
   double* bump = bump_pressure.data();
-  for_each(grid.cells, [=, &laws](std::ptrdiff_t c) {
+  for_each(grid.cells, [=](std::ptrdiff_t c) {
     bump[c] = f[c] < least_solid_fraction ? 0.0 : laws.pressure(f[c], e[c], rho_s) * std::sqrt(t[c]);
   });
   boundary.fill_scalar(bump_pressure);

@@ -27,11 +27,10 @@ struct StrainRate {
   void update(const Grid& grid, const FaceField& u, const Range& part);
 };
 
-// gamma = 2 ||S'|| of cell c [1/s], S' the deviator of S: the rate at which grains are sheared past each
-// other.
-inline double deviatoric_shear_rate(const StrainRate& strain, std::ptrdiff_t c) {
-  const double div = strain.divergence[c];
-  return std::sqrt(2.0 * std::max(strain.squared[c] - div * div / 3.0, 0.0));
+// gamma = 2 ||S'|| of a cell with S:S = squared and div u = div [1/s], S' the deviator of S: the rate at
+// which grains are sheared past each other.
+inline double deviatoric_shear_rate(double squared, double div) {
+  return std::sqrt(2.0 * std::max(squared - div * div / 3.0, 0.0));
 }
 
 // 2 S_de^2 = g^2 / 2 of cell c [1/s2], the mean over its four edges; g: shear of a plane on edges, s and t:

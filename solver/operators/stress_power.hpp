@@ -39,7 +39,7 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
 }
 
 // Power [W] that moving walls give to a phase whose shear stress [Pa] on the edge with index c of plane (d,
-// e) is stress(d, e, c).
+// e) is stress(d, e)(c).
 template <typename Stress>
 double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
   double total = 0.0;
@@ -49,11 +49,11 @@ double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
       for (int e = 0; e < grid.dim; ++e) {
         const double speed = boundary.side(d, upper).velocity[e];
         if (e == d || speed == 0.0) continue;
+        const auto of_edge = stress(std::min(d, e), std::max(d, e));
         const auto on_wall = [&](Range faces) {  // those of component e along the wall
           faces.lower[d] = upper ? grid.cells.n[d] : 0;
           faces.upper[d] = faces.lower[d] + 1;
-          return sum_over(grid.cells, faces,
-                          [&](std::ptrdiff_t c) { return stress(std::min(d, e), std::max(d, e), c); });
+          return sum_over(grid.cells, faces, of_edge);
         };
         double sum = on_wall(grid.inner_faces(e));
         for (const bool far : {false, true})

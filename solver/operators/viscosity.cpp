@@ -116,8 +116,10 @@ FluidViscosity::Power FluidViscosity::power(const Boundary& boundary, const Face
   Power power;
   power.dissipation =
       sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return 2.0 * mu[c] * normal[c]; });
-  const auto stress = [&](int d, int e, std::ptrdiff_t c) {
-    return edge_mean(mu, c, grid_.stride(d), grid_.stride(e)) * strain_.shear[plane_index(d, e)][c];
+  const auto stress = [&](int d, int e) {
+    const double* g = strain_.shear[plane_index(d, e)].data();
+    const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+    return [=](std::ptrdiff_t c) { return edge_mean(mu, c, s, t) * g[c]; };
   };
   for (int d = 0; d < grid_.dim; ++d) {
     for (int e = d + 1; e < grid_.dim; ++e) {
@@ -125,8 +127,10 @@ FluidViscosity::Power FluidViscosity::power(const Boundary& boundary, const Face
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
       power.dissipation +=
           sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) { return edge_mean(mu, c, s, t) * g[c] * g[c]; });
-      for (const Obstacles::Edge& edge : grid_.obstacles.edges(plane_index(d, e)))  // half of it is fluid
-        if (edge.flat) power.dissipation -= 0.5 * edge_mean(mu, edge.at, s, t) * g[edge.at] * g[edge.at];
+      power.dissipation -=  // half of it is fluid
+          sum_of(grid_.cells, grid_.obstacles.edges(plane_index(d, e)), [=](const Obstacles::Edge& edge) {
+            return edge.flat ? 0.5 * edge_mean(mu, edge.at, s, t) * g[edge.at] * g[edge.at] : 0.0;
+          });
     }
   }
   power.dissipation *= grid_.cell_volume;

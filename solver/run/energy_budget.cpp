@@ -15,24 +15,12 @@ double EnergyBudget::potential_energy(const State& s) const {
   double energy = 0.0;
   for (const int d : {1, 0}) {
     if (g[d] == 0.0) continue;
-    double sum = 0.0;
-    for (int j = 0; j < grid_.cells.n[d]; ++j) {
-      Range row = grid_.all_cells();
-      row.lower[d] = j;
-      row.upper[d] = j + 1;
-      sum += (j + 0.5) * sum_over(grid_.cells, row, [=](std::ptrdiff_t c) {
-               return f[c] * rho_s + (1.0 - f[c]) * mixture(a[c], rho_l, rho_g);
-             });
-    }
-    if (const char* solid = grid_.obstacles.solid()) {  // they hold no gas
-      for (int j = 0; j < grid_.cells.n[d]; ++j) {
-        Range row = grid_.all_cells();
-        row.lower[d] = j;
-        row.upper[d] = j + 1;
-        sum -= (j + 0.5) * rho_g *
-               sum_over(grid_.cells, row, [=](std::ptrdiff_t c) { return solid[c] != 0 ? 1.0 : 0.0; });
-      }
-    }
+    double sum = moment_over(grid_.cells, grid_.all_cells(), d, [=](std::ptrdiff_t c) {
+      return f[c] * rho_s + (1.0 - f[c]) * mixture(a[c], rho_l, rho_g);
+    });
+    if (const char* solid = grid_.obstacles.solid())  // they hold no gas
+      sum -= rho_g * moment_over(grid_.cells, grid_.all_cells(), d,
+                                 [=](std::ptrdiff_t c) { return solid[c] != 0 ? 1.0 : 0.0; });
     energy -= g[d] * grid_.h[d] * grid_.cell_volume * sum;
   }
   return energy;

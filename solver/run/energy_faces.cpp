@@ -1,6 +1,5 @@
 #include "solver/run/energy_faces.hpp"
 
-#include "solver/grid/for_each_row.hpp"
 #include "solver/scene/gravity.hpp"
 
 namespace granvof {
@@ -57,9 +56,9 @@ void Faces::add_solid(int d) {
                *q = trace_.flux_s[d].data();
   const double *f1 = next_.f_s.data(), *p = next_.p_c.data();
   const double *u0 = now_.u_s[d].data(), *u1 = next_.u_s[d].data(), *v1 = next_.u_c[d].data();
-  double step = 0.0, before = 0.0, after = 0.0, predicted = 0.0, momentum = 0.0, slip = 0.0;
-  double spread = 0.0, pressed = 0.0;
-  for_each_row(grid_.cells, grid_.inner_faces(d), [&](std::ptrdiff_t start, int n) {
+  const Sums<8> sums = sum_rows(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t start, int n) {
+    double step = 0.0, before = 0.0, after = 0.0, predicted = 0.0, momentum = 0.0, slip = 0.0;
+    double spread = 0.0, pressed = 0.0;
 #pragma omp simd reduction(+ : step, before, after, predicted, momentum, slip, spread, pressed)
     for (int i = 0; i < n; ++i) {
       const std::ptrdiff_t c = start + i;
@@ -73,7 +72,9 @@ void Faces::add_solid(int d) {
       spread += beside;
       pressed += beside * (p[c] - p[c - s]);
     }
+    return Sums<8>{{step, before, after, predicted, momentum, slip, spread, pressed}};
   });
+  const auto [step, before, after, predicted, momentum, slip, spread, pressed] = sums.values;
   const double volume = grid_.cell_volume, rho_s = scene_.solid.density;
   const double kinetic = 0.25 * rho_s * after, gravity = g_[d] * dt_ * momentum;
   work_.step += 0.5 * volume * step;
@@ -96,9 +97,9 @@ void Faces::add_fluid(int d, const Range& faces, double weight) {
                *liquid = trace_.passed.through[d].data();
   const double rho_l = scene_.liquid.density, rho_g = scene_.gas.density, heavier = (rho_l - rho_g) / dt_;
   const double dt_h = dt_ / grid_.h[d], dt = dt_;
-  double step = 0.0, before = 0.0, after = 0.0, predicted = 0.0, convected = 0.0, momentum = 0.0;
-  double lifted = 0.0, pressed = 0.0;
-  for_each_row(grid_.cells, faces, [&](std::ptrdiff_t start, int n) {
+  const Sums<8> sums = sum_rows(grid_.cells, faces, [=](std::ptrdiff_t start, int n) {
+    double step = 0.0, before = 0.0, after = 0.0, predicted = 0.0, convected = 0.0, momentum = 0.0;
+    double lifted = 0.0, pressed = 0.0;
 #pragma omp simd reduction(+ : step, before, after, predicted, convected, momentum, lifted, pressed)
     for (int i = 0; i < n; ++i) {
       const std::ptrdiff_t c = start + i;
@@ -114,7 +115,9 @@ void Faces::add_fluid(int d, const Range& faces, double weight) {
       lifted += rho_g * q[c] + heavier * liquid[c] - mv;
       pressed += (solved[c] - f_c * v) * (p1[c] - p1[c - s]);
     }
+    return Sums<8>{{step, before, after, predicted, convected, momentum, lifted, pressed}};
   });
+  const auto [step, before, after, predicted, convected, momentum, lifted, pressed] = sums.values;
   const double volume = weight * grid_.cell_volume, gravity = g_[d] * dt_ * momentum;
   work_.step += 0.5 * volume * step;
   work_.kinetic += 0.25 * volume * after;
@@ -143,13 +146,7 @@ void Faces::add_potential_out(int d, bool upper) {
   if (confined_[d] != 0.0) work_.potential_out += mass * -confined_[d] * (upper ? scene_.tank[d] : 0.0);
   for (int e = 0; e < grid_.dim; ++e) {  // where gravity acts along the side
     if (e == d || confined_[e] == 0.0) continue;
-    double moment = 0.0;
-    for (int j = 0; j < grid_.cells.n[e]; ++j) {
-      Range row = faces;
-      row.lower[e] = j;
-      row.upper[e] = j + 1;
-      moment += (j + 0.5) * grid_.h[e] * sum_over(grid_.cells, row, mass_of_face);
-    }
+    const double moment = grid_.h[e] * moment_over(grid_.cells, faces, e, mass_of_face);
     work_.potential_out -= sign * area * confined_[e] * moment;
   }
 }

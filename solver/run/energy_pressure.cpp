@@ -7,9 +7,9 @@ namespace granvof {
 
 double EnergyBudget::elastic(const Field& f_s, const Field& packing) const {
   const double *f = f_s.data(), *p = packing.data();
-  const auto& energy = elastic_energy_;
-  return grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(),
-                                      [=, &energy](std::ptrdiff_t c) { return energy(f[c], p[c]); });
+  const auto* energy = &elastic_energy_;
+  return grid_.cell_volume *
+         sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return (*energy)(f[c], p[c]); });
 }
 
 const Field& EnergyBudget::fraction_of_law(const State& now, const State& next) const {
@@ -24,7 +24,7 @@ double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const St
   const Field& stress = trace.rheology.viscous_stress;
   const double* viscous = stress.empty() ? nullptr : stress.data();
   const closures::SolidLaw law(scene_);
-  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=, &law](std::ptrdiff_t c) {
+  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
            const closures::GrainsOfCell cell{theta[c], e[c], resting[c], packing[c],
                                              viscous != nullptr ? viscous[c] : 0.0};
            if (theta[c] == 0.0 && resting[c] == 0.0 && cell.viscous_stress == 0.0) return 0.0;
@@ -39,8 +39,8 @@ double EnergyBudget::work_of_contacts(double dt, const State& now, const State& 
                                       const StepTrace& trace) const {
   const double *f = fraction_of_law(now, next).data(), *packing = now.packing.data(),
                *div = trace.strain.divergence.data();
-  const Contact& contact = scene_.contact;
-  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=, &contact](std::ptrdiff_t c) {
+  const Contact contact = scene_.contact;
+  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
            return f[c] > packing[c] ? closures::elastic_pressure(f[c], contact, packing[c]).value * div[c]
                                     : 0.0;
          });

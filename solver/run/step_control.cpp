@@ -22,7 +22,7 @@ double longest_elastic_step(const Grid& grid, const Scene& scene, const State& s
   const double *f = s.f_s.data(), *theta = s.theta.data(), *packing = s.packing.data();
   const double e = scene.solid.restitution, rho_s = scene.solid.density;
   const closures::SolidLaw law(scene);
-  const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=, &law](std::ptrdiff_t c) {
+  const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=](std::ptrdiff_t c) {
     return closures::solid_pressure(f[c], {theta[c], e, 0.0, packing[c]}, law).slope;
   });
   if (stiffest <= 0.0) return std::numeric_limits<double>::infinity();

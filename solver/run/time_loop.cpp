@@ -7,11 +7,11 @@
 
 namespace granvof {
 
-TimeLoop::TimeLoop(const Scene& scene)
+TimeLoop::TimeLoop(const Scene& scene, const Communicator* communicator)
     : scene_(scene),
-      grid_(scene),
-      boundary_(grid_, communicator_),
-      step_(grid_, scene, boundary_, communicator_),
+      grid_(scene, communicator),
+      boundary_(grid_),
+      step_(grid_, scene, boundary_),
       control_(grid_, scene),
       now_(initial_state(grid_, scene, boundary_)),
       next_(grid_),

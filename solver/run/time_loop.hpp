@@ -26,8 +26,8 @@ class TimeLoop {
   // Looks at the loop after an accepted step; what it returns ends the loop.
   using Observer = std::function<std::optional<Ending>()>;
 
-  // At the start of the scene, which must outlive this.
-  explicit TimeLoop(const Scene& scene);
+  // At the start of the scene; it and the communicator (see Grid) must outlive this.
+  explicit TimeLoop(const Scene& scene, const Communicator* communicator = nullptr);
   TimeLoop(const TimeLoop&) = delete;
   TimeLoop& operator=(const TimeLoop&) = delete;
   TimeLoop(TimeLoop&&) = delete;
@@ -64,7 +64,6 @@ class TimeLoop {
 
  private:
   const Scene& scene_;
-  SerialCommunicator communicator_;
   Grid grid_;
   Boundary boundary_;
   TimeStep step_;

@@ -22,21 +22,19 @@ constexpr double largest_solid_fraction = 0.66;  // beyond it the step's packing
 
 }  // namespace
 
-TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                   const Communicator& communicator)
+TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
-      communicator_(communicator),
       aperture_(grid, scene),
       inertia_(grid),
       drag_(grid, scene),
       rheology_(grid),
       viscosity_(grid, scene),
-      friction_(grid, scene, boundary, communicator),
-      pressure_(grid, scene, boundary, communicator),
+      friction_(grid, scene, boundary),
+      pressure_(grid, scene, boundary),
       interface_(grid, scene, boundary),
-      temperature_(grid, scene, boundary, communicator),
+      temperature_(grid, scene, boundary),
       strain_(grid),
       whole_columns_(grid.has_whole_columns()),
       continuity_tree_(grid),
@@ -252,7 +250,7 @@ bool TimeStep::bears_explicit_viscosity(double dt) const {
 
 // Few scenes need it, and it takes an eighth of a run's memory.
 bool TimeStep::apply_viscosity(const State& now, double dt, State& next) {
-  if (!implicit_viscosity_) implicit_viscosity_.emplace(grid_, scene_, boundary_, communicator_);
+  if (!implicit_viscosity_) implicit_viscosity_.emplace(grid_, scene_, boundary_);
   return implicit_viscosity_->apply(dt, viscosity_.of_cells(), inertia_, drag_.beta(), aperture_, now.u_c,
                                     predicted_c_, next.u_c, next.u_s);
 }

@@ -37,7 +37,7 @@ struct BodyAcceleration {
 
 class TimeStep {
  public:
-  TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary, const Communicator& communicator);
+  TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
   // Tries one step from `now` (ghosts filled) to `next`. `now` is never touched; `next` is meaningful, with
   // ghosts filled, only if the report says accepted.
@@ -61,7 +61,6 @@ class TimeStep {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
-  const Communicator& communicator_;
   Aperture aperture_;
   FaceInertia inertia_;
   InterphaseDrag drag_;

@@ -194,13 +194,12 @@ void measure(const char* name, const std::array<int, 3>& n, int repeats,
 
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 9;
-  const SerialCommunicator communicator;
   const std::vector<std::array<int, 3>> sizes{{100, 80, 1}, {160, 48, 1}, {256, 128, 1}, {512, 256, 1},
                                               {32, 32, 32}, {64, 64, 64}, {96, 96, 96}};
   for (const auto& n : sizes) {
     for (const bool stiff : {false, true}) {
       Scalar s = stiff ? friction(n) : pressure(n);
-      ScalarSolver solver(s.layout, communicator);
+      ScalarSolver solver(s.layout);
       measure(stiff ? "friction" : "pressure", n, repeats, [&] {
         std::fill(s.x.begin(), s.x.end(), 0.0);
         return solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {0.0, 1e-6, 300});
@@ -215,7 +214,7 @@ int main(int argc, char** argv) {
                                                        {40, 40, 40},
                                                        {80, 80, 80}}) {
     Coupled c(n);
-    CoupledSolver solver(c.first.layout, communicator);
+    CoupledSolver solver(c.first.layout);
     Values x2(c.first.layout.size);
     for (const double relative : {1e-3, 1e-6})
       measure(relative > 1e-5 ? "coupled 1e-3" : "coupled 1e-6", n, repeats, [&] {

@@ -41,15 +41,14 @@ TEST(ConjugateGradient, TwoComponentsWithABlockDiagonalPreconditioner) {
       });
     }
   };
-  const SerialCommunicator communicator;
-  Multigrid first(box[0].layout, communicator), second(box[1].layout, communicator);
+  Multigrid first(box[0].layout), second(box[1].layout);
   first.set(s[0].faces, s[0].mass.data());
   second.set(s[1].faces, s[1].mass.data());
   const auto precondition = [&](const ConstComponents& r, const Components& z) {
     first.apply(r[0], z[0], 2);
     second.apply(r[1], z[1], 2);
   };
-  ConjugateGradient solver({box[0].layout, box[1].layout}, communicator);
+  ConjugateGradient solver({box[0].layout, box[1].layout});
   const Report report = solver.solve(apply, precondition, {s[0].rhs.data(), s[1].rhs.data()},
                                      {s[0].x.data(), s[1].x.data()}, {0.0, 1e-10, 60});
   EXPECT_TRUE(report.converged);
@@ -100,11 +99,10 @@ TEST(ConjugateGradient, WeightsJudgeEveryRowByItsOwn) {
   const auto precondition = [&](const ConstComponents& r, const Components& z) {
     b.each([&](int i, int j, int k) { z[0][b.layout.index(i, j, k)] = r[0][b.layout.index(i, j, k)]; });
   };
-  const SerialCommunicator communicator;
   const double tolerance = 1e-4;
   for (const bool weighted : {false, true}) {
     Values x = b.values();
-    ConjugateGradient solver({b.layout}, communicator);
+    ConjugateGradient solver({b.layout});
     const Report report = solver.solve(apply, precondition, {rhs.data()}, {x.data()}, {tolerance, 0.0, 500},
                                        {weighted ? inverse.data() : nullptr});
     EXPECT_TRUE(report.converged);
@@ -127,8 +125,7 @@ TEST(ConjugateGradient, WeightsJudgeEveryRowByItsOwn) {
 TEST(ConjugateGradient, IndefiniteOperatorIsReported) {
   Box b({8, 8, 1});
   Values rhs = b.values(1.0), x = b.values();
-  const SerialCommunicator communicator;
-  ConjugateGradient solver({b.layout}, communicator);
+  ConjugateGradient solver({b.layout});
   const auto apply = [&](const Components& p, const Components& q) {
     b.each([&](int i, int j, int k) { q[0][b.layout.index(i, j, k)] = -p[0][b.layout.index(i, j, k)]; });
   };

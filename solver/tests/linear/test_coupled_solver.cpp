@@ -59,8 +59,7 @@ BlockSystem mixture(Box& b, const Mixture& m) {
 }
 
 Report check(Box& b, BlockSystem& s, double relative, double error, bool singular = false) {
-  const SerialCommunicator communicator;
-  CoupledSolver solver(b.layout, communicator);
+  CoupledSolver solver(b.layout);
   const Report report = solver.solve(s.system(), s.x1.data(), s.x2.data(), {0.0, relative, 200});
   EXPECT_TRUE(report.converged) << report.final / report.initial << " after " << report.iterations;
   const auto a = s.matrix(b);
@@ -140,8 +139,7 @@ TEST(CoupledSolver, ApplicationsBarelyGrowWithTheGrid) {
   for (const int n : {40, 80, 160, 320}) {
     Box b({n, n / 2, 1});
     BlockSystem s = mixture(b, {.gas_from = 0.7});
-    const SerialCommunicator communicator;
-    CoupledSolver solver(b.layout, communicator);
+    CoupledSolver solver(b.layout);
     const Report report = solver.solve(s.system(), s.x1.data(), s.x2.data(), {0.0, 1e-6, 100});
     EXPECT_TRUE(report.converged);
     counts.push_back(report.iterations);
@@ -154,8 +152,7 @@ TEST(CoupledSolver, ZeroRightHandSide) {
   Box b({12, 8, 1});
   BlockSystem s = mixture(b, {});
   s.rhs1 = s.rhs2 = b.values();
-  const SerialCommunicator communicator;
-  CoupledSolver solver(b.layout, communicator);
+  CoupledSolver solver(b.layout);
   const Report report = solver.solve(s.system(), s.x1.data(), s.x2.data(), {0.0, 1e-6, 100});
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, 0);
@@ -164,8 +161,7 @@ TEST(CoupledSolver, ZeroRightHandSide) {
 TEST(CoupledSolver, TooFewIterationsAreReportedWithTheTrueResidual) {
   Box b({40, 30, 1});
   BlockSystem s = mixture(b, {});
-  const SerialCommunicator communicator;
-  CoupledSolver solver(b.layout, communicator);
+  CoupledSolver solver(b.layout);
   const Report report = solver.solve(s.system(), s.x1.data(), s.x2.data(), {0.0, 1e-12, 3});
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.iterations, 3);

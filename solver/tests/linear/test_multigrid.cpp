@@ -26,8 +26,7 @@ TEST_P(EveryShape, CycleIsASymmetricContraction) {
   Box b = box();
   ScalarSystem s(b, [&](int, int, int) { return b.uniform(0.1, 10.0); });
   b.each([&](int i, int j, int k) { s.mass[b.layout.index(i, j, k)] = b.uniform(0.01, 0.1); });
-  const SerialCommunicator communicator;
-  Multigrid multigrid(b.layout, communicator);
+  Multigrid multigrid(b.layout);
   multigrid.set(s.faces, s.mass.data());
   const auto a = s.matrix(b);
   const auto random = [&] {
@@ -71,8 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape,
 TEST(Multigrid, OneCellIsSolvedByItsDiagonal) {
   Box b({1, 1, 1});
   Values mass = b.values(4.0), r = b.values(2.0), z = b.values();
-  const SerialCommunicator communicator;
-  Multigrid multigrid(b.layout, communicator);
+  Multigrid multigrid(b.layout);
   multigrid.set(Faces{}, mass.data());
   multigrid.apply(r.data(), z.data(), 2);
   EXPECT_FLOAT_EQ(static_cast<float>(z[b.layout.index(0, 0, 0)]), 0.5F);
@@ -84,8 +82,7 @@ TEST(Multigrid, MaskedRowsAreApart) {
   const auto masked = [&](int row) { return row % 7 == 3; };
   ScalarSystem s(b, [&](int, int c, int o) { return masked(c) || masked(o) ? 0.0 : 1.0; });
   b.each([&](int i, int j, int k) { s.mass[b.layout.index(i, j, k)] = masked(b.row(i, j, k)) ? 0.0 : 0.1; });
-  const SerialCommunicator communicator;
-  Multigrid multigrid(b.layout, communicator);
+  Multigrid multigrid(b.layout);
   multigrid.set(s.faces, s.mass.data());
   Values r = b.values(), other = b.values(), z = b.values(), z_other = b.values();
   b.each([&](int i, int j, int k) {
@@ -106,9 +103,8 @@ TEST(Multigrid, SpacingMakesItCoarsenTheStrongDirectionFirst) {
   Box b({32, 32, 1});
   ScalarSystem s(b, [&](int d, int, int) { return d == 0 ? 0.01 : 1.0; });
   b.each([&](int i, int j, int k) { s.mass[b.layout.index(i, j, k)] = 1e-4; });
-  const SerialCommunicator communicator;
   const auto rate = [&](const std::array<double, 3>& spacing) {
-    Multigrid multigrid(b.layout, communicator, spacing);
+    Multigrid multigrid(b.layout, spacing);
     multigrid.set(s.faces, s.mass.data());
     const auto a = s.matrix(b);
     Values e = b.values();

@@ -16,8 +16,7 @@ using testing::Vector;
 
 // Solves, and compares residual and answer with Eigen's; `error` is relative to the largest value.
 Report check(Box& b, ScalarSystem& s, double relative, double error, bool singular = false) {
-  const SerialCommunicator communicator;
-  ScalarSolver solver(b.layout, communicator);
+  ScalarSolver solver(b.layout);
   const Tolerance tolerance{0.0, relative, 100};
   const Report report = solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), tolerance);
   const auto a = s.matrix(b);
@@ -121,8 +120,7 @@ TEST(ScalarSolver, MaskedRowsKeepTheirGuess) {
     if (m) s.rhs[c] = 0.0;
     if (m) s.x[c] = 3.0;
   });
-  const SerialCommunicator communicator;
-  ScalarSolver solver(b.layout, communicator);
+  ScalarSolver solver(b.layout);
   EXPECT_TRUE(solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {0.0, 1e-8, 100}).converged);
   b.each([&](int i, int j, int k) {
     if (masked(b.row(i, j, k))) {
@@ -145,8 +143,7 @@ TEST(ScalarSolver, UncoupledDirection) {
 TEST(ScalarSolver, ZeroRightHandSideAndGuess) {
   Box b({12, 8, 1});
   ScalarSystem s(b, [](int, int, int) { return 1.0; });
-  const SerialCommunicator communicator;
-  ScalarSolver solver(b.layout, communicator);
+  ScalarSolver solver(b.layout);
   const Report report = solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {0.0, 1e-8, 100});
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, 0);
@@ -157,8 +154,7 @@ TEST(ScalarSolver, IncompatibleRightHandSideIsReported) {
   Box b({12, 8, 1});
   ScalarSystem s(b, [](int, int, int) { return 1.0; });
   b.each([&](int i, int j, int k) { s.rhs[b.layout.index(i, j, k)] = 1.0 + 0.1 * i; });
-  const SerialCommunicator communicator;
-  ScalarSolver solver(b.layout, communicator);
+  ScalarSolver solver(b.layout);
   const Report report = solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {0.0, 1e-8, 50});
   EXPECT_FALSE(report.converged);
 }
@@ -169,8 +165,7 @@ TEST(ScalarSolver, NotANumberIsReported) {
   b.each(
       [&](int i, int j, int k) { s.mass[b.layout.index(i, j, k)] = s.rhs[b.layout.index(i, j, k)] = 1.0; });
   s.rhs[b.layout.index(3, 3, 0)] = std::nan("");
-  const SerialCommunicator communicator;
-  ScalarSolver solver(b.layout, communicator);
+  ScalarSolver solver(b.layout);
   const Report report = solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {1e9, 1e-8, 50});
   EXPECT_FALSE(report.converged);
 }
@@ -181,16 +176,14 @@ TEST(ScalarSolver, RecoversFromNotANumber) {
   ScalarSystem s(b, [&](int, int, int) { return b.uniform(0.1, 10.0); });
   b.each([&](int i, int j, int k) { s.mass[b.layout.index(i, j, k)] = 0.1; });
   random_rhs(b, s);
-  const SerialCommunicator communicator;
-  ScalarSolver solver(b.layout, communicator);
+  ScalarSolver solver(b.layout);
   const Tolerance tolerance{0.0, 1e-8, 50};
   ScalarSystem bad = s;
   for (int d = 0; d < 2; ++d) bad.faces.lower[d] = bad.face[d].data();
   bad.face[0][b.layout.index(5, 5, 0)] = std::nan("");
   bad.mass[b.layout.index(36, 22, 0)] = std::nan("");
   EXPECT_FALSE(solver.solve(bad.faces, bad.mass.data(), bad.rhs.data(), bad.x.data(), tolerance).converged);
-  Multigrid multigrid(b.layout,
-                      communicator);  // the solver refuses before it reaches multigrid, so ask that too
+  Multigrid multigrid(b.layout);  // the solver refuses before it reaches multigrid, so ask that too
   Values z = b.values(), again = b.values();
   multigrid.set(s.faces, s.mass.data());
   multigrid.apply(s.rhs.data(), z.data(), 2);
@@ -210,8 +203,7 @@ TEST(ScalarSolver, IterationsDoNotGrowWithTheGrid) {
     const auto density = [&](int row) { return row / n < n / 4 ? 1000.0 : 1.0; };
     ScalarSystem s(b, [&](int, int c, int o) { return 2.0 / (density(c) + density(o)); });
     random_rhs(b, s, true);
-    const SerialCommunicator communicator;
-    ScalarSolver solver(b.layout, communicator);
+    ScalarSolver solver(b.layout);
     const Report report = solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {0.0, 1e-6, 100});
     EXPECT_TRUE(report.converged);
     counts.push_back(report.iterations);
@@ -234,8 +226,7 @@ TEST(ScalarSolver, MirroredSystemHasTheMirroredAnswer) {
       if (i > 0) s.face[0][c] = 1.0 + 0.5 * std::sin(1.3 * face + j);
       if (j > 0) s.face[1][c] = 1.0 + 0.5 * std::sin(0.9 * from + j);
     });
-    const SerialCommunicator communicator;
-    ScalarSolver solver(b.layout, communicator);
+    ScalarSolver solver(b.layout);
     EXPECT_TRUE(solver.solve(s.faces, s.mass.data(), s.rhs.data(), s.x.data(), {0.0, 1e-6, 100}).converged);
     return s.x;
   };

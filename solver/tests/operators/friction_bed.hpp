@@ -21,7 +21,7 @@ struct Bed {
         u_strain(s.grid),
         u(s.grid),
         f_s(s.grid, 0.5),
-        friction(s.grid, s.scene, s.boundary, s.communicator) {}
+        friction(s.grid, s.scene, s.boundary) {}
   void fill() {
     s.boundary.fill_scalar(f_s);
     inertia.update(s.grid, s.scene, f_s, Field(s.grid, 1.0));

@@ -35,7 +35,7 @@ inline void make_periodic(Scene& scene, int d) {
 }
 
 struct Tank {
-  explicit Tank(Scene given) : scene(std::move(given)), grid(scene), boundary(grid, communicator) {}
+  explicit Tank(Scene given) : scene(std::move(given)), grid(scene), boundary(grid) {}
   Tank(const Tank&) = delete;
   Tank& operator=(const Tank&) = delete;
   Tank(Tank&&) = delete;
@@ -120,7 +120,6 @@ struct Tank {
   }
 
   Scene scene;
-  SerialCommunicator communicator;
   Grid grid;
   Boundary boundary;
   std::mt19937 random{11};

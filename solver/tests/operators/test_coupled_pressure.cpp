@@ -45,7 +45,7 @@ struct Step {
       s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
         if (inertia.f_s[d][c] < least_solid_fraction) u_s[d][c] = u_c[d][c];
       });
-    CoupledPressure pressure(s.grid, s.scene, s.boundary, s.communicator);
+    CoupledPressure pressure(s.grid, s.scene, s.boundary);
     const Field touching(s.grid, s.scene.contact.solid_fraction_min);
     report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid), touching}, inertia, beta, aperture,
                             u_s, u_s, u_c, p_c, p_s, flux_s, flux_c);

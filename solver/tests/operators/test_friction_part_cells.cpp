@@ -119,7 +119,7 @@ TEST(FrictionOfPartCells, GrainsThatFallOnAFreeFaceFreeIt) {
   const auto fall = [](double held) {
     Layer layer(Layer::between(WallKind::no_slip, WallKind::slip));
     layer.s.scene.numerics.bed_surface = BedSurface::part_cells;
-    Friction friction(layer.s.grid, layer.s.scene, layer.s.boundary, layer.s.communicator);
+    Friction friction(layer.s.grid, layer.s.scene, layer.s.boundary);
     constexpr int surface = 5;
     const double mass = 1250.0 / step, speed = -0.1;
     layer.s.each_cell([&](int, int j, int, std::ptrdiff_t c) {

@@ -36,7 +36,7 @@ struct Gas {
         flux(s.grid),
         rheology(s.grid),
         strain(s.grid),
-        temperature(s.grid, s.scene, s.boundary, s.communicator) {}
+        temperature(s.grid, s.scene, s.boundary) {}
   static Scene scene(double e0) {
     Scene scene = unit_scene(2, 4);
     for (int d : {0, 1}) make_periodic(scene, d);
@@ -275,7 +275,7 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       s.boundary.fill_velocity(u, Phase::solid);
       StrainRate strain(s.grid);
       strain.update(s.grid, u);
-      GranularTemperature temperature(s.grid, s.scene, s.boundary, s.communicator);
+      GranularTemperature temperature(s.grid, s.scene, s.boundary);
       const Field beta = s.random_cells(0.0, 1e5);
       const Field production = production_of(s, 1e-3, theta, f, beta, strain, temperature, rheology);
       temperature.advance(1e-3, theta, f, f, FaceField(s.grid), beta, rheology, strain, production, next);

@@ -20,7 +20,7 @@ struct Implicit {
       : s(std::move(scene)),
         inertia(s.grid),
         viscosity(s.grid, s.scene),
-        implicit(s.grid, s.scene, s.boundary, s.communicator),
+        implicit(s.grid, s.scene, s.boundary),
         aperture(s.grid, s.scene),
         beta(s.grid),
         u_s(s.grid) {}

@@ -148,8 +148,7 @@ TEST_F(RunAlarms, EnergyThatFluxesMakeIsSeen) {
 // The rules themselves, each limit alone.
 class AlarmRules : public ::testing::Test {
  protected:
-  AlarmRules()
-      : grid_(scene_), boundary_(grid_, communicator_), state_(initial_state(grid_, scene_, boundary_)) {
+  AlarmRules() : grid_(scene_), boundary_(grid_), state_(initial_state(grid_, scene_, boundary_)) {
     state_.energy.kinetic = 1.0;  // so that shares of the turnover mean something
   }
   std::vector<Warning> raised(const EnergyTerms& energy, std::int64_t unconverged = 0) {
@@ -194,7 +193,6 @@ class AlarmRules : public ::testing::Test {
 
  private:
   Scene scene_ = column_scene();
-  SerialCommunicator communicator_;
   Grid grid_;
   Boundary boundary_;
   State state_;

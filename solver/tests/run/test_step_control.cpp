@@ -14,7 +14,7 @@ struct Control {
   explicit Control(const std::vector<std::string>& overrides = {})
       : scene(column_scene(overrides)),
         grid(scene),
-        boundary(grid, communicator),
+        boundary(grid),
         state(initial_state(grid, scene, boundary)),
         control(grid, scene) {
     state.time = 1.0;  // the gate is up
@@ -22,7 +22,6 @@ struct Control {
   }
   std::ptrdiff_t at(int i, int j) const { return grid.cells.index(i, j, 0); }
   Scene scene;
-  SerialCommunicator communicator;
   Grid grid;
   Boundary boundary;
   State state;

@@ -1,11 +1,8 @@
-// Memory of the linear solvers: rows padded to whole vectors and aligned to cache lines.
+// How the values of the linear solvers lie in memory: rows padded to whole vectors, on cache lines.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
-#include <new>
 
 #include "solver/grid/layout.hpp"
 
@@ -17,33 +14,15 @@ inline int padded(int n) {
   return (n + lanes - 1) / lanes * lanes;
 }
 
-// Zero-initialised values, the first on a cache line.
-template <typename T>
-class Buffer {
- public:
-  Buffer() = default;
-  explicit Buffer(std::size_t size) {
-    data_.reset(static_cast<T*>(::operator new(size * sizeof(T), cache_line)));
-    std::fill_n(data_.get(), size, T{});
-  }
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
-
- private:
-  static constexpr std::align_val_t cache_line{64};
-  struct Free {
-    void operator()(T* p) const { ::operator delete(p, cache_line); }
-  };
-  std::unique_ptr<T, Free> data_;
-};
-
 // The layout of the solvers' own values. Rows start on a cache line and are padded to whole vectors with
 // values that stay 0, so that loops need no remainder. Ghost rows exist only in directions of several cells;
 // along x a ghost is needed only where the direction is periodic (else the faces on both ends are 0).
-inline Layout padded_layout(const std::array<int, 3>& n, const std::array<bool, 3>& periodic) {
+// `like`: the layout whose box this is, or a coarser one of: its periodic ends, and whom it is shared with.
+inline Layout padded_layout(const std::array<int, 3>& n, const Layout& like) {
   Layout l;
   l.n = n;
-  for (int d = 0; d < 3; ++d) l.periodic[d] = n[d] > 1 && periodic[d];
+  l.communicator = like.communicator;
+  for (int d = 0; d < 3; ++d) l.periodic[d] = n[d] > 1 && like.periodic[d];
   l.ghost = {l.periodic[0] ? 1 : 0, n[1] > 1 ? 1 : 0, n[2] > 1 ? 1 : 0};
   std::ptrdiff_t row = padded(n[0] + 2 * l.ghost[0]);
   if (row % 512 == 0) row += lanes;  // rows a power of two apart evict each other from the first-level cache
@@ -51,10 +30,6 @@ inline Layout padded_layout(const std::array<int, 3>& n, const std::array<bool, 
   l.origin = lanes + l.ghost[1] * l.stride[1] + l.ghost[2] * l.stride[2];
   l.size = static_cast<std::size_t>(2 * lanes + l.stride[2] * (n[2] + 2 * l.ghost[2]));
   return l;
-}
-
-inline bool any_periodic(const Layout& l) {
-  return l.periodic[0] || l.periodic[1] || l.periodic[2];
 }
 
 }  // namespace granvof::linear

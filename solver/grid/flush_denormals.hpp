@@ -5,26 +5,35 @@
 #include <xmmintrin.h>
 #endif
 
-namespace granvof::linear {
+namespace granvof {
 
-// While it lives, results and operands too small to matter count as zero in this thread.
+// While it lives, results and operands too small to matter count as zero in this thread (or, given false, do
+// not).
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
-  FlushDenormals() : previous_(_mm_getcsr()) {
-    _mm_setcsr(previous_ | 0x8040U);
+  explicit FlushDenormals(bool flush = true) : previous_(_mm_getcsr()) {
+    _mm_setcsr(flush ? previous_ | both : previous_ & ~both);
   }
   ~FlushDenormals() {
     _mm_setcsr(previous_);
   }
+  // Whether this thread does so now.
+  static bool on() {
+    return (_mm_getcsr() & both) == both;
+  }
 
  private:
+  static constexpr unsigned both = 0x8040U;  // of results, of operands
   unsigned previous_;
 
  public:
 #else
-  FlushDenormals() {}
+  explicit FlushDenormals(bool = true) {}
   ~FlushDenormals() {}
+  static bool on() {
+    return false;
+  }
 #endif
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals(FlushDenormals&&) = delete;
@@ -32,4 +41,4 @@ class FlushDenormals {
   FlushDenormals& operator=(FlushDenormals&&) = delete;
 };
 
-}  // namespace granvof::linear
+}  // namespace granvof
