@@ -66,7 +66,7 @@ TEST_P(Processes, BesideATwinEverySumIsTwiceAsLarge) {
   for (const auto& [name, values] : alone.fields) EXPECT_EQ(values, beside.fields.at(name)) << name;
   EXPECT_EQ(alone.others, beside.others);
   for (const auto& [name, sum] : alone.sums) EXPECT_EQ(2.0 * sum, beside.sums.at(name)) << name;
-  EXPECT_GT(alone.sums.at("kinetic of step 5"), 0.0);
+  EXPECT_GT(alone.sums.at("energy_kinetic of step 5"), 0.0);
 }
 
 TEST_P(Processes, WithDifferentTanksTakeTheSameSteps) {
