@@ -9,7 +9,7 @@ import re
 SWITCH = "ci/mutation/switch.hpp"
 INCLUDE = f'#include "{SWITCH}"\n'
 ASSIGNMENT = re.compile(r"(?<![=!<>+\-*/%&|^])[+\-*/%&|^]?=(?!=)|<<=|>>=|\+\+|--")
-WORD = re.compile(r"[\w.]+|[+\-*/%&|<>=!^]+|[^\w\s]")
+WORD = re.compile(r'"(?:\\.|[^"\\\n])*"|' r"[\w.]+|[+\-*/%&|<>=!^]+|[^\w\s]")
 OPENING, CLOSING = "([{", ")]}"
 
 
@@ -18,12 +18,14 @@ class NoPlace(Exception):
 
 
 def without_comments(text, strings=False):
-    """The text with comments (and literal strings) as blanks: every other character is where it was."""
+    """The text with comments as blanks (and literal strings as one word each): every other character is where it was."""
     kinds = r'//[^\n]*|/\*.*?\*/' + (r"|\"(?:\\.|[^\"\\\n])*\"|(?<![\w])'(?:\\.|[^'\\\n])+'" if strings else r'|"(?:\\.|[^"\\\n])*"')
 
     def blank(match):
         piece = match.group()
-        return re.sub(r"[^\n]", " ", piece) if strings or piece.startswith("/") else piece
+        if piece.startswith("/"):
+            return re.sub(r"[^\n]", " ", piece)
+        return "_" * len(piece) if strings else piece
 
     return re.sub(kinds, blank, text, flags=re.DOTALL)
 

@@ -161,6 +161,13 @@ def test_what_the_compiler_decides_is_refused():
         cpp.switched(text, [(*listed.place(mutant, text), mutant.number)])
 
 
+def test_a_text_is_switched_as_a_whole():
+    text = 'const char* f() {\n  return g("old name", 1);\n}\n'
+    mutant = listed.Mutant("toy/f.cpp", "n", 'g("old name"', 'g("new name"')
+    assert f'g((::granvof::mutation::on<0x{mutant.number}u>() ? ("new name") : ("old name")), 1)' in \
+        cpp.switched(text, [(*listed.place(mutant, text), mutant.number)])
+
+
 def test_the_number_of_a_fault_survives_edits_elsewhere():
     assert fault("a", "b").number == fault("a", "b", why="none").number
     assert fault("a", "b").number != fault("a", "c").number
@@ -221,7 +228,7 @@ else:
         open(note, "a").write("00000002\\n")
     limit = 0 if os.environ.get("GRANVOF_MUTANT") == "00000002" else 1
     out.mkdir(parents=True)
-    rows = [{"id": f"{run.name}.row", "verdict": "agrees" if int((run / "value").read_text()) <= limit else "differs"}
+    rows = [{"id": f"{run.name}.row", "scene": run.name, "verdict": "agrees" if int((run / "value").read_text()) <= limit else "differs"}
             for run in sorted(runs.iterdir())]
     (out / "results.json").write_text(json.dumps({"results": rows}))
     sys.exit(1)
@@ -243,6 +250,15 @@ def stand_ins(tmp_path):
     said = []
     assert made.without_fault(said.append) == ""
     return made, said
+
+
+def test_what_noticed_most_for_its_cost_is_made_first(stand_ins):
+    made, _ = stand_ins
+    made.seconds |= {"s1": 1.0, "s2": 2.0, "check": 0.0}
+    assert [run[0] for run in made.in_order(made.runs)] == ["s1", "s2"]
+    for _ in range(2):
+        assert made.judge(Numbered("00000001"))[1] == "s2.row: agrees -> differs"
+    assert [run[0] for run in made.in_order(made.runs)] == ["s2", "s1"]
 
 
 class Numbered:

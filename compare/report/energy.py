@@ -49,11 +49,11 @@ def energy_plot(results, run, directory):
     if shown is None or not any(np.abs(term.energy).max() > 0 for term in shown.stored + shown.stacked + shown.lines):
         return []
     unit = entry["scene"]["time_unit"]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), sharex=True)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 4.6), sharex=True)
     for term, colour, line in zip(shown.stored, style.CYCLE, style.LINES):
         left.plot(term.time / unit, 1e3 * term.energy, color=colour, linestyle=line, label=term.label)
     left.set_ylabel("change of stored energy [mJ]")
-    style.legend(left)
+    style.legend(left, columns=2)
     colours = plt.get_cmap("tab20").colors
     used = [term for term in shown.stacked if np.abs(term.energy).max() > 0]
     if used:
@@ -65,11 +65,11 @@ def energy_plot(results, run, directory):
                    linestyle=style.LINES[index % len(style.LINES)], linewidth=1.1, label=term.label)
     right.plot(shown.rest.time / unit, 1e3 * shown.rest.energy, color=style.BLACK, linewidth=1.1, label=shown.rest.label)
     right.set_ylabel("energy lost (negative: made) [mJ]")
-    right.legend(fontsize=5.5, loc="upper left")
+    style.legend(right, columns=2, size=5.5)
     for axis in (left, right):
         axis.set_xlabel("T [-]" if unit != 1.0 else "t [s]")
         axis.axhline(0, color="0.6", linewidth=0.6)
-    left.set_title(run, loc="left", fontsize=9)
+    figure.suptitle(run, x=0.01, horizontalalignment="left", fontsize=9)
     style.stamp(figure, results.facts(run))
     return [style.save(figure, directory, f"energy-{run}", pdf=False)]
 

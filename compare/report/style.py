@@ -28,13 +28,13 @@ plt.rcParams.update({
 })
 
 
-def legend(axis, columns=None):
-    """Above the axes, off the data; in as many columns as fit, at most three, or as given."""
+def legend(axis, columns=None, size=None):
+    """Above the axes, off the data; in as many columns as fit, at most three, or as given; `size` of its letters."""
     handles, labels = axis.get_legend_handles_labels()
     if handles:
         longest = max(len(label) for label in labels)
         fitting = max(1, int(11 * axis.figure.get_figwidth()) // (longest + 6))
-        axis.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.0, 1.01), borderaxespad=0.0,
+        axis.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.0, 1.01), borderaxespad=0.0, fontsize=size,
                     ncols=columns or min(fitting, 3, len(handles)))
 
 

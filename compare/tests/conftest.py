@@ -121,5 +121,9 @@ def reported(tmp_path_factory):
     from report import report
 
     directory = make_comparison(tmp_path_factory.mktemp("reported"))
+    section = {"title": "What went wrong", "figures": [], "tables": [{"columns": ["file", "fault", "by"], "rows": [
+        ["solver/operators/a_long_name_of_a_file.cpp", "old → new", "Suite.ALongNameOfATest"], ["solver/run/b.cpp", 1.5, ""]]}]}
+    (directory.parent / "faults").mkdir()
+    (directory.parent / "faults/faults.json").write_text(json.dumps(section))
     assert report.main(["--verify", str(directory), "--kept", str(directory / "nothing")]) == 0
     return directory

@@ -105,6 +105,13 @@ def test_fits_a_phone(phone):
     assert phone.run(f"return getComputedStyle({FIRST_TABLE}.tBodies[0].rows[0].cells[1], '::before').content") == '"metric"'
 
 
+def test_every_table_is_cards_on_a_phone(phone):
+    cells = phone.run("""return [...document.querySelectorAll('td')].filter(cell => cell.offsetParent)
+        .map(cell => [cell.closest('section').getAttribute('aria-labelledby'), getComputedStyle(cell).display, cell.dataset.title])""")
+    assert {section for section, _, _ in cells} == {"glance", "checks", "runs", "faults"}
+    assert [cell for cell in cells if cell[1] != "grid" or not cell[2]] == []
+
+
 def test_tables_of_checks_fit_the_window(page):
     assert page.run("return document.documentElement.scrollWidth <= innerWidth")
     assert page.run(SCROLLS) == 0

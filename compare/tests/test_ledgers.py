@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from report import figures, ledgers, results
+from report import energy, figures, ledgers, results, style
 
 OURS = {"time [s]": (0, 1), "energy_kinetic [J]": (0, 2), "energy_potential [J]": (10, 3), "energy_granular [J]": (0, 0.5),
         "energy_elastic [J]": (1, 1), "lost_drag [J]": (0, 1), "lost_friction [J]": (0, 2), "lost_collisions [J]": (0, 0.5),
@@ -74,3 +74,33 @@ def test_a_damaged_series_is_named(verify_directory, tmp_path):
     (verify_directory.parent / "runs/s1/series.csv").write_text("time [s],lost_drag [J]\n0,zero\n")
     with pytest.raises(results.Damaged, match="series.csv cannot be shown"):
         ledgers.ledger_plot(loaded, "s1", tmp_path)
+
+
+def test_legends_of_a_budget_cover_neither_data_nor_names(tmp_path, monkeypatch):
+    t = np.linspace(0.0, 1.0, 20)
+    stored = ["potential, both phases", "kinetic, both phases", "granular", "elastic, contacts"]
+    lost = [f"numerics: transport of momentum {i}" for i in range(15)]
+    ledger = [{"name": label, "label": label, "kind": kind, "never_gains": len(label) % 2 == 0}
+              for kind, labels in (("stored", stored), ("numerical", lost), ("residual", ["open"])) for label in labels]
+
+    curves = {f"energy:{term['name']}": {"x": list(t), "y": list(t)} for term in ledger}
+
+    class Compared:
+        def __init__(self):
+            self.curves = {"canary-dry-frictional": {"scene": {"time_unit": 1.0}, "curves": curves, "ledger": ledger}}
+
+        def facts(self, run):
+            return [{"id": run, "case_hash": "18a1ced3", "host": "A Processor", "version": "0.2.0"}]
+
+    drawn = []
+    monkeypatch.setattr(style, "save", lambda figure, *_, **__: drawn.append(figure))
+    energy.energy_plot(Compared(), "canary-dry-frictional", tmp_path)
+    figure = drawn[0]
+    figure.canvas.draw()
+    pieces = {"name": figure._suptitle.get_window_extent()}
+    for side, axis in zip(("left", "right"), figure.axes):
+        pieces |= {f"{side} axes": axis.get_window_extent(), f"{side} legend": axis.get_legend().get_window_extent()}
+        assert axis.get_window_extent().width > 0.35 * figure.bbox.width
+    both = [(a, b) for a in pieces for b in pieces if a < b]
+    assert [(a, b) for a, b in both if pieces[a].overlaps(pieces[b])] == []
+    style.plt.close(figure)

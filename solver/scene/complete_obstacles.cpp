@@ -17,7 +17,7 @@ double on_a_face(const Completion& c, const std::string& key, double x, int axis
   return nearest;
 }
 
-void place(const Completion& c) {
+void obstacles_in_cells(const Completion& c) {
   c.only_in_3d("obstacle.z0");
   c.only_in_3d("obstacle.z1");
   ObstacleInput& input = c.d.obstacles;
@@ -87,7 +87,7 @@ void keep_apart(const Completion& c) {
 
 void complete_obstacles(Completion& c) {
   if (!c.has("obstacle")) return;
-  c.rule({"scene.dimensions", "tank", "grid", "obstacle"}, [&] { place(c); });
+  c.rule({"scene.dimensions", "tank", "grid", "obstacle"}, [&] { obstacles_in_cells(c); });
   c.rule({"obstacle", "bed", "gate", "walls"}, [&] { keep_apart(c); });
 }
 

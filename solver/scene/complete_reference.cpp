@@ -25,7 +25,7 @@ void cells(const Completion& c) {
   }
 }
 
-void steps(const Completion& c) {
+void steps_of_reference(const Completion& c) {
   const ReferenceSettings& r = c.d.reference.settings;
   if (r.dt * r.coarse_graining > r.fluid_dt) {
     c.refuse("reference.dt", fmt::format("at most reference.fluid_dt{} = {} s",
@@ -65,7 +65,7 @@ void complete_reference(Completion& c) {
   c.rule({"reference", "bed"}, [&] { c.needs("reference", "bed"); });
   c.rule({"scene.dimensions", "tank", "reference.slice_depth"}, [&] { slice(c); });
   c.rule({"scene.dimensions", "tank.size", "reference.cell"}, [&] { cells(c); });
-  c.rule({"reference.dt", "reference.coarse_graining", "reference.fluid_dt"}, [&] { steps(c); });
+  c.rule({"reference.dt", "reference.coarse_graining", "reference.fluid_dt"}, [&] { steps_of_reference(c); });
   c.rule({"reference.seeds"}, [&] {
     if (c.d.reference.settings.seeds.empty()) c.refuse("reference.seeds", "at least one seed");
   });

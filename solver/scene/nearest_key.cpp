@@ -8,7 +8,7 @@
 namespace granvof::case_file {
 namespace {
 
-constexpr std::size_t longest = 60;  // twice that of any key
+constexpr std::size_t longest_asked = 60;  // twice that of any key
 
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> row(b.size() + 1);
@@ -26,7 +26,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_key(std::string_view name) {
-  if (name.size() > longest) return "";
+  if (name.size() > longest_asked) return "";
   const auto distance = [&](const Key& k) { return edit_distance(name, k.name); };
   const auto best = std::ranges::min_element(keys(), {}, distance);
   const int near = std::max(2, static_cast<int>(name.size()) / 3);

@@ -60,6 +60,15 @@ TEST(BedSurface, DispersedGrainsRestOnNothing) {
   EXPECT_EQ(Column({packed, 0.03, 0.03, 0.02, 0, 0, 0, 0}, 0.0).at(3), 0.0);
 }
 
+// Grains fall into a cell below that is looser by a twentieth; one that is denser than that bears them, with
+// a short way between the two.
+TEST(BedSurface, ALooseCellBelowLetsGrainsIn) {
+  const auto borne = [](double below) { return Column({packed, below, 0.2, 0, 0, 0, 0, 0}, 100.0).at(2); };
+  EXPECT_NEAR(borne(0.956 * packed), half_weight * 0.2, 1e-12);
+  EXPECT_NEAR(borne(0.9525 * packed), 0.5 * half_weight * 0.2, 1e-12);
+  EXPECT_EQ(borne(0.949 * packed), 0.0);
+}
+
 TEST(BedSurface, ABlockInFreeFallBearsNothing) {
   EXPECT_EQ(Column({0, 0, 0, packed, packed, 0.3, 0, 0}, 0.0).at(5), 0.0);
   EXPECT_NEAR(Column({0, 0, 0, packed, packed, 0.3, 0, 0}, 10.0).at(5), 10.0, 1e-12);

@@ -31,22 +31,24 @@ struct Step {
         u_s(s.grid),
         u_c(s.grid),
         flux_s(s.grid),
-        flux_c(s.grid) {}
+        flux_c(s.grid),
+        inertia(s.grid),
+        beta(s.grid) {}
   void solve(double dt) {
     s.boundary.fill_scalar(f_s, 0.0);
     s.boundary.fill_scalar(alpha, 0.0);
-    FaceInertia inertia(s.grid);
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
     drag.update(s.boundary, u_s, u_c, f_s, alpha, inertia, PartCells(s.grid));
+    beta = drag.beta();
     for (int d = 0; d < s.grid.dim; ++d)  // where there are no grains both move as one from the start
       s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
         if (inertia.f_s[d][c] < least_solid_fraction) u_s[d][c] = u_c[d][c];
       });
     CoupledPressure pressure(s.grid, s.scene, s.boundary, s.communicator);
     const Field touching(s.grid, s.scene.contact.solid_fraction_min);
-    report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid), touching}, inertia, drag.beta(),
-                            aperture, u_s, u_s, u_c, p_c, p_s, flux_s, flux_c);
+    report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid), touching}, inertia, beta, aperture,
+                            u_s, u_s, u_c, p_c, p_s, flux_s, flux_c);
   }
   // Both velocities after a time dt of free fall.
   void fall(double dt) {
@@ -76,6 +78,8 @@ struct Step {
   Aperture aperture;
   Field f_s, alpha, theta, restitution, p_c, p_s;
   FaceField u_s, u_c, flux_s, flux_c;
+  FaceInertia inertia;
+  FaceField beta;  // drag of the step [kg/(m3 s)]
   PressureReport report;
 };
 
@@ -133,6 +137,39 @@ TEST(CoupledPressure, ClosesBothBalancesFromRandomStates) {
           step.solve(5e-3);
           step.expect_closed(5e-3);
         }
+}
+
+// What the pressures and the drag do to both velocities on a face is the momentum balance of each phase:
+//   m_s du_s = -f_s dt grad P_c - dt grad P_s - beta dt (du_s - du_c),
+//   m_c du_c = -f_c dt grad P_c + beta dt (du_s - du_c).
+TEST(CoupledPressure, BothVelocitiesKeepTheirMomentumBalance) {
+  for (int dim : {2, 3}) {
+    Step step(strict(unit_scene(dim, 6)));
+    const double dt = 2e-3;
+    step.f_s = step.s.random_cells(0.2, 0.5);
+    step.alpha = step.s.random_cells(0.0, 1.0);
+    step.theta = step.s.random_cells(0.1, 0.2);  // P_s > 0 everywhere
+    step.u_s = step.s.random_faces(-0.5, 0.5);
+    step.u_c = step.s.random_faces(-0.5, 0.5);
+    const FaceField predicted_s = step.u_s, predicted_c = step.u_c;
+    step.solve(dt);
+    ASSERT_TRUE(step.report.converged);
+    for (int d = 0; d < dim; ++d) {
+      const std::ptrdiff_t below = step.s.grid.stride(d);
+      const double dt_h = dt / step.s.grid.h[d];
+      step.s.each(step.s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
+        const double f = step.inertia.f_s[d][c];
+        const double du_s = step.u_s[d][c] - predicted_s[d][c], du_c = step.u_c[d][c] - predicted_c[d][c];
+        const double push_c = dt_h * (step.p_c[c] - step.p_c[c - below]),
+                     push_s = dt_h * (step.p_s[c] - step.p_s[c - below]),
+                     drag = step.beta[d][c] * dt * (du_s - du_c);
+        const double size = std::fabs(push_c) + std::fabs(push_s) + std::fabs(drag);
+        ASSERT_GT(std::fabs(push_s), 0.0);
+        EXPECT_NEAR(step.inertia.solid[d][c] * du_s, -f * push_c - push_s - drag, 1e-9 * size);
+        EXPECT_NEAR(step.inertia.fluid[d][c] * du_c, -(1.0 - f) * push_c + drag, 1e-9 * size);
+      });
+    }
+  }
 }
 
 TEST(CoupledPressure, NoGrainsAtAll) {

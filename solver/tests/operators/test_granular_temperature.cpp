@@ -113,6 +113,24 @@ TEST(GranularTemperature, SteadySimpleShear) {
   }
 }
 
+// Gravity and moving walls give a grain a fall through the tank and the speed of a wall at most: 3/2 Theta =
+// g H + 1/2 v^2. Shear that would make more, and a start that has more, end there.
+TEST(GranularTemperature, IsBoundedByAFallThroughTheTank) {
+  const double wall = 3.0, most = 2.0 / 3.0 * (9.81 + 0.5 * wall * wall);
+  Scene scene = Gas::scene(0.9);
+  for (Side& side : scene.sides) side.kind = SideKind::wall;
+  scene.gravity = 9.81;
+  scene.sides[top].velocity = {wall, 0.0, 0.0};
+  Gas hot(scene, 0.3, 100.0);
+  hot.advance(1e-6);
+  EXPECT_NEAR(hot.value(), most, 1e-12 * most);
+  scene.model.granular_temperature = TemperatureModel::algebraic;
+  Gas sheared(scene, 0.3, 0.0);
+  sheared.deform(2e4, 0.0);
+  sheared.advance(1e-3);
+  EXPECT_NEAR(sheared.value(), most, 1e-12 * most);
+}
+
 TEST(GranularTemperature, OffStaysZero) {
   Scene scene = Gas::scene(0.9);
   scene.model.granular_temperature = TemperatureModel::off;
