@@ -31,9 +31,11 @@ constexpr double least_share_of_store = 1e-6;
 constexpr double least_share_of_bed = 1e-2;
 
 // What a flow that dissipates next to nothing may create: a share of the bed's own energy, or of the scene's
-// without a bed. Not of what the tank's water stores, which a bed at rest does not turn over.
+// where no bed has any, as none has without gravity. Not of what the tank's water stores, which a bed at rest
+// does not turn over.
 double least_own_energy(const Scene& scene) {
-  return least_share_of_bed * (scene.bed ? energy_of_bed(scene) : scales_of(scene).energy);
+  const double of_bed = energy_of_bed(scene);
+  return least_share_of_bed * (of_bed > 0.0 ? of_bed : scales_of(scene).energy);
 }
 
 // Viscous forces that a step takes at one velocity and that work on another misplace what viscosity

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "solver/scene/completion.hpp"
+#include "solver/scene/cut_off.hpp"
+#include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
 namespace {
@@ -80,6 +82,9 @@ void keep_apart(const Completion& c) {
                                        : obstacle.lower[axis] < c.s.tank[axis] * roundoff;
       if (meets) c.refuse("obstacle.x0", "obstacles that leave inlets and outlets free");
     }
+    if (c.s.sides[side].kind == SideKind::inlet && is_cut_off(c.s, side))
+      c.refuse("obstacle.x0",
+               fmt::format("obstacles that leave a way out to what comes in at walls.{}", side_names[side]));
   }
 }
 

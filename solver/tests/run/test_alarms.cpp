@@ -63,6 +63,12 @@ TEST_F(RunAlarms, ADryBedInAnInclinedTankIsNoBlowUp) {
   EXPECT_FALSE(warned(record, "energy residual"));
 }
 
+// Without gravity a bed has no energy of its own to take shares of, and where nothing moves none is turned
+// over.
+TEST_F(RunAlarms, ABedAtRestWithoutGravityRaisesNone) {
+  EXPECT_EQ(record_of({"tank.gravity=0", "gate=false"})["warnings"], json::array());
+}
+
 // However loose the tolerance, no guess of the pressure passes for a solution: continuity is solved well
 // enough for the budget. (That a residual beyond its limit is seen: AlarmRules.)
 TEST_F(RunAlarms, ALooseToleranceLeavesTheBudgetClosed) {

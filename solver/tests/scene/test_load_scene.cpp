@@ -313,5 +313,11 @@ TEST(Inlet, TakesWhatIsLeftOutFromTheCase) {
   EXPECT_EQ(parse_scene(scene.resolved, "resolved.toml").sides, scene.sides);
 }
 
+// The open top is the one way out of what comes in before the obstacle.
+TEST(Obstacles, MayStandBetweenAnInletAndAnOutletUnderAnOpenTop) {
+  const std::string across = "obstacle={x0=[0.2], x1=[0.22], y0=[0], y1=[0.12]}";
+  EXPECT_NO_THROW(small({"walls.left.inflow=0.1", "walls.right.outflow_pressure=0", across}));
+}
+
 }  // namespace
 }  // namespace granvof::test
