@@ -20,9 +20,11 @@ LEFT_OUT = {"tests", "bench"}
 COLOURS = {"reference/demvof": "#eedfc9", "solver": "#d5e4f2", "compare": "#dcecd8"}
 ABOUT = {
     "solver/scene": "case file to scene, checked",
+    "solver/model": "lists of closures, fluids",
     "solver/grid": "cells, faces, sides, loops",
     "solver/linear": "multigrid, CG, BiCGSTAB",
     "solver/closures": "one law, one header",
+    "solver/closures/drag": "laws of drag, a list",
     "solver/operators": "one term, one file",
     "solver/output": "run directory, scalars",
     "solver/run": "time step, monitors, energy",
@@ -45,12 +47,12 @@ ABOUT = {
 # What a part may include of the others: the libraries `scene` and `output` know nothing of the solver, and are all of it that compare
 # knows; demvof also shares the closure of the drag. The first that a part's name begins with holds.
 MAY_INCLUDE = {
-    "solver/scene": ("solver/scene",),
-    "solver/plausibility": ("solver/scene", "solver/closures"),  # pure functions, in headers
+    "solver/scene": ("solver/scene", "solver/model", "solver/closures/drag"),  # what its keys choose from
+    "solver/plausibility": ("solver/scene", "solver/model", "solver/closures"),  # pure functions, in headers
     "solver/output": ("solver/scene", "solver/plausibility"),
     "solver": ("solver",),
     "compare": ("compare", "solver/scene", "solver/output"),
-    "reference": ("reference", "solver/scene", "solver/output", "solver/closures/drag"),
+    "reference": ("reference", "solver/scene", "solver/model", "solver/output", "solver/closures/drag"),
 }
 WIDTH, HEIGHT, GAP, ROW = 176, 44, 18, 92  # of a box, between boxes, between rows
 

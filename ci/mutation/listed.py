@@ -2,7 +2,7 @@
 
 A table a file of the project, an entry a fault:
 
-    ["solver/closures/drag_paper.hpp"]
+    ["solver/closures/drag/paper.hpp"]
     ergun-inertia-dropped = { was = "+ 1.75 * fluid.density", now = "+ 0.0 * fluid.density" }
 
 `was` stands once in the file, in any spacing, comments left out; with `after`, once behind the first place of that

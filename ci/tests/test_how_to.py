@@ -86,13 +86,16 @@ def test_the_metric_compiles_in_its_place(tmp_path):
 
 
 def test_the_closure_passes_its_test(tmp_path):
-    for block in blocks("closure.md", "cpp"):
-        file = tmp_path / re.match(r"// (\S+)\n", block)[1]
+    header, line, test = blocks("closure.md", "cpp")
+    listed = (ROOT / "solver/closures/drag/laws.hpp").read_text(encoding="utf-8")
+    mine = '#include "solver/closures/drag/stokes.hpp"\n'
+    changed = re.sub(r"using DragLaws = [^;]*;\n", line, listed).replace("#pragma once\n", f"#pragma once\n{mine}")
+    for name, text in ((header.split()[1], header), ("solver/closures/drag/laws.hpp", changed), (test.split()[1], test)):
+        file = tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(block, encoding="utf-8")
-    test = tmp_path / "solver/tests/closures/test_linear_drag.cpp"
-    built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", f"-I{tmp_path}", test, "-lgtest", "-lgtest_main", "-o",
-                 tmp_path / "test")
+        file.write_text(text, encoding="utf-8")
+    built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", f"-I{tmp_path}", f"-I{ROOT}", tmp_path / test.split()[1], "-lgtest",
+                 "-lgtest_main", "-o", tmp_path / "test")
     assert built.returncode == 0, built.stderr
     done = call(tmp_path / "test")
     assert done.returncode == 0 and "1 test" in done.stdout

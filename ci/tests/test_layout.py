@@ -42,7 +42,7 @@ def architecture():
     ("compare/study", "solver/run/run_case.hpp", False), ("compare/checks", "solver/grid/grid.hpp", False),
     ("solver/output", "solver/run/state.hpp", False), ("solver/scene", "solver/output/digest.hpp", False),
     ("solver/run", "solver/output/digest.hpp", True), ("solver/run", "compare/input/run.hpp", False),
-    ("reference/demvof/fluid", "solver/closures/drag.hpp", True), ("reference/demvof/fluid", "solver/closures/units.hpp", False),
+    ("reference/demvof/fluid", "solver/closures/drag/drag.hpp", True), ("reference/demvof/fluid", "solver/closures/units.hpp", False),
 ])
 def test_an_include_across_a_border_is_refused(architecture, tmp_path, part, target, allowed):
     file = tmp_path / part / "it.cpp"

@@ -321,6 +321,10 @@ constexpr std::array table{
     MetricEntry{"energy_numerical", "-",
                 "energy lost to numerics by the end over the energy turned over; negative: made", none,
                 energy_numerical},
+    MetricEntry{"energy_created", "-",
+                "energy that schemes, and solid pressure that nothing pays for, gave by the end, over what "
+                "physics dissipated and is in motion",
+                none, energy_created},
     MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
     MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds, nullptr, true},
 };

@@ -65,6 +65,10 @@ Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
                   "no energy budget in the series or in run.json");
 }
 
+Measured energy_created(const Run& run, const Parameters&, const FindRun&) {
+  return measured(run.facts.number("energy_created"), "run.json states no created energy");
+}
+
 Measured warnings(const Run& run, const Parameters&, const FindRun&) {
   return measured(run.facts.number("warnings"), "run.json states no warnings");
 }

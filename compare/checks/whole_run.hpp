@@ -15,6 +15,7 @@ Measured fluid_speed_max(const Run& run, const Parameters& p, const FindRun&);
 Measured solid_speed_max(const Run& run, const Parameters& p, const FindRun&);
 Measured energy_closure(const Run& run, const Parameters& p, const FindRun&);
 Measured energy_numerical(const Run& run, const Parameters& p, const FindRun&);
+Measured energy_created(const Run& run, const Parameters& p, const FindRun&);
 Measured warnings(const Run& run, const Parameters& p, const FindRun&);
 Measured core_seconds(const Run& run, const Parameters& p, const FindRun&);
 

@@ -139,7 +139,7 @@ def test_a_record_of_an_earlier_version_is_slimmed_once_and_keeps_its_provenance
     for name in ("series.csv", "fields.h5"):
         (folder / name).write_bytes((tmp_path / "run" / name).read_bytes())
     facts = json.loads(slim["record.json"]) | {"files": recorder.stated_files(folder)}
-    recorder.write_json(folder / "record.json", facts)
+    recorder.write_sealed(folder / "record.json", facts)
     assert recorder.slim_record(folder)
     assert (folder / "series.csv").read_bytes() == slim["series.csv"]
     was, now = json.loads(slim["record.json"]), json.loads((folder / "record.json").read_text())

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 
 namespace granvof {
 namespace {
@@ -25,8 +25,7 @@ void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, cons
     double* w = slip_[d].data();
     for_each(grid_.cells, grid_.cells_and_ghosts(1), [=](std::ptrdiff_t c) { w[c] = uc[c] - us[c]; });
   }
-  closures::with_drag_law(scene_.model.drag_law,
-                          [&](auto law) { fill(law, boundary, f_s, alpha, inertia, part_cells); });
+  scene_.model.drag_law.with([&](auto law) { fill(law, boundary, f_s, alpha, inertia, part_cells); });
 }
 
 template <typename Law>

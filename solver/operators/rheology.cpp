@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "solver/closures/agitation_drag.hpp"
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/closures/restitution.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/closures/solid_pressure.hpp"
@@ -71,7 +71,7 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   if (sheared) boundary.fill_scalar(dilatancy_tangent);
   if (scene.model.agitation_drag) {
     double* beta = agitated_drag.data();
-    closures::with_drag_law(scene.model.drag_law, [&](auto drag_law) {
+    scene.model.drag_law.with([&](auto drag_law) {
       for_each(grid.cells, [=, &scene](std::ptrdiff_t c) {
         beta[c] = 0.0;
         if (p[c] <= 0.0) return;

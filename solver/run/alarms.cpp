@@ -56,6 +56,10 @@ double energy_turnover(const Scene& scene, const EnergyTerms& start, const Energ
   return now.physical() + now.numerical_magnitude() + now.in_motion() + least_energy(scene, start);
 }
 
+double energy_created(const Scene& scene, const EnergyTerms& now) {
+  return created_beside_misplaced(now) / (now.physical() + now.in_motion() + least_own_energy(scene));
+}
+
 void Alarms::watch(const char* monitor, double value, double limit, double time, const char* meaning) {
   if (value <= limit) return;
   const auto found =
@@ -84,9 +88,8 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   look("energy residual", std::fabs(e.residual) / turnover, largest_energy_residual,
        "momentum or continuity is not solved well enough, or an operator misstates its work: the energy "
        "budget does not close");
-  look("energy created",
-       created_beside_misplaced(e) / (e.physical() + e.in_motion() + least_own_energy(scene_)),
-       largest_energy_created, "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
+  look("energy created", energy_created(scene_, e), largest_energy_created,
+       "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
   look("elastic start", start_.elastic / std::max(energy_of_bed(scene_), least_energy(scene_, start_)),
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "

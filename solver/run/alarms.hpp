@@ -19,6 +19,11 @@ namespace granvof {
 // 1e-9 of it) and of the bed's own energy.
 double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now);
 
+// What numerics, and the work of solid pressure that nothing pays for, gave the flow so far, as a share of
+// what physics dissipated and is in motion [-]. A flow that does next to nothing counts by a hundredth of the
+// bed's own energy.
+double energy_created(const Scene& scene, const EnergyTerms& now);
+
 struct StepCounts {
   std::int64_t steps = 0, unconverged_friction = 0, refused = 0;
 };

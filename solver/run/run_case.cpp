@@ -164,7 +164,8 @@ RunProgress Run::progress() const {
                 {"friction_per_step", static_cast<double>(counters.friction) / steps},
                 {"unconverged_friction_solves", static_cast<double>(counters.unconverged_friction)},
                 {"last_dt", loop_.last_dt()},
-                {"energy_turnover", energy_turnover(scene_, start_energy_, energy)}};
+                {"energy_turnover", energy_turnover(scene_, start_energy_, energy)},
+                {"energy_created", energy_created(scene_, energy)}};
   for (const EnergyTerm& term : energy_terms) p.monitors[term.name] = energy.*term.value;
   p.warnings = alarms_.raised();
   return p;

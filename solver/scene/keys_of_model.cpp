@@ -4,6 +4,27 @@
 #include "solver/scene/presets.hpp"
 
 namespace granvof::case_file {
+namespace {
+
+// Words of a list of closures, as they stand in it.
+template <typename List>
+Words<closures::Chosen<List>> words_of() {
+  Words<closures::Chosen<List>> words;
+  for (std::size_t place = 0; place < List::facts.size(); ++place)
+    words.emplace_back(List::facts[place].word, closures::Chosen<List>(place));
+  return words;
+}
+
+// Their sources, with commas between them.
+template <typename List>
+std::string sources_of() {
+  std::string text;
+  for (const closures::ClosureFacts& facts : List::facts)
+    text.append(text.empty() ? "" : ", ").append(facts.source);
+  return text;
+}
+
+}  // namespace
 
 std::vector<Key> contact_keys() {
   const auto of = [](auto member) {
@@ -61,16 +82,10 @@ std::vector<Key> model_keys() {
              Scope::label),
       key("model.drag", "", any, of(&Model::drag), "Drag, (8) and (9)."),
       // demvof's too: in both hashes
-      scoped(
-          came_later(choice("model.drag_law",
-                            Words<DragLaw>{{"paper", DragLaw::paper},
-                                           {"di-felice", DragLaw::di_felice},
-                                           {"beetstra", DragLaw::beetstra},
-                                           {"tenneti", DragLaw::tenneti}},
-                            of(&Model::drag_law),
-                            "Drag coefficient, of both codes: (8), (9) as printed, or Di Felice (1994), "
-                            "Beetstra et al. (2007), Tenneti et al. (2011), without their jump at f_s 0.2.")),
-          Scope::setup),
+      scoped(came_later(choice("model.drag_law", words_of<closures::DragLaws>(), of(&Model::drag_law),
+                               "Drag coefficient, of both codes: " + sources_of<closures::DragLaws>() +
+                                   "; only the first jumps, at f_s 0.2.")),
+             Scope::setup),
       key("model.les", "", any, of(&Model::les), "Subgrid viscosity (10)."),
       choice("model.granular_temperature", temperatures, of(&Model::granular_temperature), "Eq (7)."),
       key("model.pressure_work", "", any, of(&Model::pressure_work), "-P_s^K div u_s in (7)."),

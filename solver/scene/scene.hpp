@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "solver/closures/drag/laws.hpp"
+#include "solver/model/fluid.hpp"
+
 namespace granvof {
 
 using Vec3 = std::array<double, 3>;
@@ -69,12 +72,6 @@ struct Side {
 enum SideIndex { left = 0, right = 1, bottom = 2, top = 3, front = 4, back = 5 };
 
 // --- materials ---------------------------------------------------------------------------------------
-
-struct Fluid {
-  double density = 0.0;    // rho_g, rho_l [kg/m3], > 0
-  double viscosity = 0.0;  // mu_g, mu_l [Pa s], >= 0
-  bool operator==(const Fluid&) const = default;
-};
 
 // A case without grains has no [solid]; the defaults then stand in, so that laws stay finite at f_s = 0.
 struct Solid {
@@ -143,8 +140,8 @@ enum class FrictionLaw { constant, inertial, viscous };
 // at, carried with them.
 enum class Packing { uniform, carried };
 
-// beta_c: (8), (9) as printed, or a law without a jump, see closures/drag_*.hpp.
-enum class DragLaw { paper, di_felice, beetstra, tenneti };
+// beta_c: (8), (9) as printed, or a law without a jump.
+using closures::DragLaw;
 
 // The packing that shear drives a bed to: contact.critical_solid_fraction, or less of it the faster it
 // shears.
@@ -161,7 +158,7 @@ enum class TemperatureModel { transported, algebraic, off };
 // Each switch removes one physical part; the ablation reports show what each is worth.
 struct Model {
   bool drag = true;  // eqs (8), (9)
-  DragLaw drag_law = DragLaw::paper;
+  DragLaw drag_law;
   bool les = true;                                                        // eq (10)
   TemperatureModel granular_temperature = TemperatureModel::transported;  // eq (7)
   bool pressure_work = true;       // -P_s^K div u_s in (7), see correction 2 of the model

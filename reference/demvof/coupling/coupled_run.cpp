@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 
 namespace demvof {
 
@@ -182,7 +182,7 @@ void CoupledRun::renew_drag() {
   // Of the grains: drag and slip Reynolds number are theirs, so that the drag per volume is that of the bed.
   const double k = settings_.coarse_graining, grains = k * k * k;
   const double diameter = beads_->settings().diameter / k;
-  granvof::closures::with_drag_law(settings_.drag_law, [&](auto law) {
+  settings_.drag_law.with([&](auto law) {
     for (std::size_t bead = 0; bead < load_.coefficient.size(); ++bead) {
       const double slip = std::hypot(load_.velocity[3 * bead] - velocity[3 * bead],
                                      load_.velocity[3 * bead + 1] - velocity[3 * bead + 1],

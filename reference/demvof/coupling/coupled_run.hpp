@@ -20,9 +20,9 @@
 namespace demvof {
 
 struct CouplingSettings {
-  double fluid_dt = 2e-4;  // longest fluid step [s]; shortened where the liquid would move half a cell
-  bool drag = true;        // false: pressure gradient alone
-  granvof::DragLaw drag_law = granvof::DragLaw::paper;  // the continuum's closure, see closures/drag.hpp
+  double fluid_dt = 2e-4;     // longest fluid step [s]; shortened where the liquid would move half a cell
+  bool drag = true;           // false: pressure gradient alone
+  granvof::DragLaw drag_law;  // the continuum's closure, see closures/drag/drag.hpp
   // Bead's over grain's diameter [-], >= 1: a bead of diameter k d stands for k^3 grains of diameter d and
   // has the drag of them all.
   double coarse_graining = 1.0;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 
 namespace granvof::closures {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/contact_friction.hpp"
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/closures/kinetic_theory.hpp"
 #include "solver/closures/restitution.hpp"
 #include "solver/closures/smagorinsky.hpp"

@@ -1,23 +1,35 @@
-// The table of docs/output.md of the columns of series.csv is the one that the code writes.
+// What the documentation lists is what there is in the code.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "solver/closures/drag/laws.hpp"
 #include "solver/output/extract.hpp"
 
 namespace granvof {
 namespace {
 
-TEST(Docs, ListsTheColumnsOfTheSeries) {
-  const auto path = std::filesystem::path(GRANVOF_CASES_DIR).parent_path() / "docs/output.md";
-  std::ifstream file(path);
+std::string page(const char* name) {
+  std::ifstream file(std::filesystem::path(GRANVOF_CASES_DIR).parent_path() / "docs" / name);
   std::stringstream text;
   text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Docs, ListsTheColumnsOfTheSeries) {
   const std::string table = scalar_table_markdown();
-  EXPECT_NE(text.str().find(table), std::string::npos) << "docs/output.md should hold this table:\n" << table;
+  EXPECT_NE(page("output.md").find(table), std::string::npos) << "docs/output.md should hold this table:\n"
+                                                              << table;
+}
+
+TEST(Docs, HasARowForEachLawOfDrag) {
+  const std::string text = page("theory/drag.md");
+  for (const closures::ClosureFacts& law : closures::DragLaws::facts)
+    EXPECT_NE(text.find(fmt::format("| [{}](", law.word)), std::string::npos) << law.word;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Inertia of both phases and the drag coefficient on faces, against the closures on known states.
 #include <gtest/gtest.h>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/operators/interphase_drag.hpp"
 #include "solver/tests/operators/tank.hpp"
 
@@ -138,7 +138,7 @@ TEST(Drag, GrainsAtRestAreNotDraggedByTheFluidAboveThem) {
   const std::ptrdiff_t below = s.grid.cells.index(1, 1, 0), above = s.grid.cells.index(1, 2, 0);
   const auto law = [&](double f) {
     double value = 0.0;
-    closures::with_drag_law(DragLaw::paper, [&](auto paper) {
+    DragLaw::of<closures::DragPaper>().with([&](auto paper) {
       value =
           closures::drag_coefficient(paper, f, 1.0, 0.0, s.scene.gas, s.scene.liquid, s.scene.solid.diameter);
     });

@@ -1,7 +1,7 @@
 // Inlets and outlets: what comes in and leaves is accounted, and flows as theory has it.
 #include <cmath>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/tests/run/small_runs.hpp"
@@ -200,7 +200,7 @@ preset = "paper"
       const std::ptrdiff_t c = run.cell(1, j), below = run.cell(1, j - 1);
       drop += run.now.p_c[below] - run.now.p_c[c] - 1000.0 * g * h;
       const double f = 0.5 * (run.now.f_s[c] + run.now.f_s[below]);
-      closures::with_drag_law(run.scene.model.drag_law, [&](auto of) {
+      run.scene.model.drag_law.with([&](auto of) {
         const double slip = u / (1.0 - f);
         const double beta = closures::drag_coefficient(of, f, 1.0, slip, run.scene.gas, run.scene.liquid,
                                                        run.scene.solid.diameter);

@@ -1,7 +1,7 @@
 // Drag, eqs (8) and (9), through the whole time step: settling and flow through a packed bed.
 #include <cmath>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/tests/verification/simulation.hpp"
 
 namespace granvof::test {
@@ -190,10 +190,9 @@ volume_tolerance = 1e-12
     most = std::fmax(most, gradient);
   }
   const double ergun = printed_drag(f_s, u, b);
-  const double drag = closures::with_drag_law(run.scene.model.drag_law, [&](auto named) {
-    return named(f_s, u, run.scene.liquid, run.scene.solid.diameter);
-  });
-  if (run.scene.model.drag_law == DragLaw::paper) {
+  const double drag = run.scene.model.drag_law.with(
+      [&](auto named) { return named(f_s, u, run.scene.liquid, run.scene.solid.diameter); });
+  if (run.scene.model.drag_law == DragLaw::of<closures::DragPaper>()) {
     EXPECT_NEAR(drag, ergun, 1e-12 * ergun);
   }
   const double theory = -drag * u / (1.0 - f_s) - 1000.0 * rate;

@@ -13,7 +13,7 @@
 
 #include "solver/closures/contact_friction.hpp"
 #include "solver/closures/contact_pressure.hpp"
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/tests/verification/periodic_box.hpp"
 
 namespace granvof::test {

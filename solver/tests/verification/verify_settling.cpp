@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/closures/drag.hpp"
+#include "solver/closures/drag/drag.hpp"
 #include "solver/tests/verification/simulation.hpp"
 
 namespace granvof::test {
@@ -100,9 +100,8 @@ double growth_rate(const Suspension& suspension, const Solid& solid, const Fluid
   const Scene scene = scene_of(suspension, {1, 0, false});
   const double f = suspension.f_s, f_c = 1.0 - f;
   const auto force = [&](double at, double w) {
-    return closures::with_drag_law(scene.model.drag_law, [&](auto law) {
-      return law(at, w, fluid, solid.diameter) * w / (at * (1.0 - at));
-    });
+    return scene.model.drag_law.with(
+        [&](auto law) { return law(at, w, fluid, solid.diameter) * w / (at * (1.0 - at)); });
   };
   double low = 1e-9, high = 10.0;
   for (int i = 0; i < 200; ++i) {

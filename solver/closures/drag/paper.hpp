@@ -8,7 +8,8 @@
 
 #include <cmath>
 
-#include "solver/scene/scene.hpp"
+#include "solver/model/choices.hpp"
+#include "solver/model/fluid.hpp"
 
 namespace granvof::closures {
 
@@ -44,5 +45,13 @@ inline double drag_paper(double f_s, double slip, const Fluid& fluid, double d_s
   const double w = (f_c - drag_blend_lower) / (drag_blend_upper - drag_blend_lower);
   return (1.0 - w) * drag_ergun(f_s, slip, fluid, d_s) + w * drag_wen_yu(f_s, slip, fluid, d_s);
 }
+
+struct DragPaper {
+  static constexpr ClosureFacts facts{"paper", "(8), (9) as printed"};
+
+  double operator()(double f_s, double slip, const Fluid& fluid, double d_s) const {
+    return drag_paper(f_s, slip, fluid, d_s);
+  }
+};
 
 }  // namespace granvof::closures
