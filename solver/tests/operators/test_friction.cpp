@@ -293,8 +293,8 @@ TEST(Friction, UniformShearTakesTheLawsPower) {
               stress * rate * 0.04 * 0.16, 1e-4 * stress * rate * 0.04 * 0.16);
 }
 
-// Stretch without shear: a cell loses 2 mu (du/dx)^2, mu of the law at |S| of the deviator, |du/dx| /
-// sqrt(3).
+// Stretch without shear: a cell loses 2 mu (du/dx)^2, mu of the law (17) at ||S|| = sqrt(S:S / 2), S:S =
+// (du/dx)^2.
 TEST(Friction, StretchTakesTheLawsPower) {
   Scene scene = box_scene(2, {8, 4, 1}, {0.08, 0.04, 1.0}, WallKind::slip);
   scene.contact.regularisation = 0.05;         // far from both ends of the law
@@ -314,7 +314,7 @@ TEST(Friction, StretchTakesTheLawsPower) {
   bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) {
     const double stretch = std::fabs(bed.u[0][c + 1] - bed.u[0][c]) / bed.s.grid.h[0];
     expected += bed.s.grid.cell_volume * 2.0 * stretch * stretch *
-                closures::friction_viscosity(pressure, scene.solid.friction, 0.05, stretch / std::sqrt(3.0));
+                closures::friction_viscosity(pressure, scene.solid.friction, 0.05, stretch / std::sqrt(2.0));
   });
   Field kinetic(bed.s.grid);
   EXPECT_NEAR(bed.friction.power(bed.mass, bed.u, bed.u, kinetic).friction, expected, 1e-6 * expected);
