@@ -84,7 +84,7 @@ nightly: setup  ## all stages of the nightly run, with history and trends
 
 faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/faults.toml): tried and held, for the report
 	ci/build --programs --reference=$(REFERENCE) release
-	ci/faults --build-dir $(RELEASE) --out "$(OUT)"
+	ci/faults --build-dir $(RELEASE) --jobs $(JOBS) --out "$(OUT)"
 
 mutate: setup  ## small faults put into the code one at a time (ci/mutants): who notices each, for the report; goes on where it stopped
 	ci/mutate --out "$(OUT)" --jobs $(JOBS) $(if $(SAMPLE),--sample $(SAMPLE))

@@ -49,6 +49,8 @@ class Bench:
     root: Path
     work: Path
     sample: bool
+    part: int = 0  # of so many, each of which does its share
+    parts: int = 1
     chance: random.Random = field(default_factory=lambda: random.Random(1))  # the same tries every time
     made: int = 0
     seen: dict = field(default_factory=dict)  # what several tries have in common, by name
@@ -72,7 +74,9 @@ class Bench:
 
     def some(self, tries, sample=SAMPLE):
         tries = list(tries)
-        return self.chance.sample(tries, sample) if self.sample and len(tries) > sample else tries
+        if self.sample and len(tries) > sample:
+            return self.chance.sample(tries, sample)
+        return tries[self.part::self.parts]
 
     def place(self):
         """A new empty directory."""
@@ -121,7 +125,7 @@ class Bench:
     def call(self, command, **options):
         environment = {**os.environ, **options.pop("environment", {})}
         try:
-            return subprocess.run([str(part) for part in command], cwd=self.root, stdin=subprocess.DEVNULL,
+            return subprocess.run([str(part) for part in command], cwd=options.pop("cwd", self.root), stdin=subprocess.DEVNULL,
                                   stdout=options.pop("stdout", subprocess.PIPE), stderr=subprocess.PIPE,
                                   timeout=options.pop("patience", PATIENCE), env=environment, **options)
         except subprocess.TimeoutExpired:

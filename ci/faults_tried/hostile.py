@@ -210,6 +210,23 @@ def hostile(bench, entry):
         bench.drop(place / "any")
 
 
+def own_files(bench, entry):
+    """A file that a user names for the output, and that is something else: refused, and it stays as it is."""
+    run = SmallRun(bench, entry)
+    sets = [word for given in entry["set"] for word in ("--set", given)]
+    for command in bench.some(entry["commands"], entry["sample"]):
+        place = bench.place()
+        shutil.copytree(run.whole, place / "run")
+        shutil.copytree(bench.root / "cases", place / "cases")
+        (place / "notes.txt").write_text("mine\n")
+        (place / "plan").write_text(json.dumps({"id": "x", "case": str(place / "cases/canary.toml"), "set": ["time.end=0.1", "output.field_times=[0]"],
+                                                "directory": str(place / "new")}) + "\n")
+        before = tree_of(place)
+        filled = [word for part in bench.filled(command, work=place) for word in (sets if part == "SETS" else [part])]
+        yield " ".join(command).replace(" SETS", ""), not_refused(bench.call(filled, cwd=place), before, place)
+        bench.drop(place / "any")
+
+
 def odd_cases(bench, entry):
     """A case file in another form: one that says the same gives the same; one that cannot be meant is refused with its line."""
     plain = (bench.root / entry["case"]).read_bytes()

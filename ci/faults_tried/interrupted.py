@@ -14,7 +14,7 @@ def kills(bench, entry):
     begun = time.monotonic()
     run.go(bench.place() / "run")
     length = time.monotonic() - begun
-    for number in range(entry["sample"] if bench.sample else entry["times"]):
+    for number in bench.some(range(entry["times"]), entry["sample"]):
         out = bench.place() / "run"
         running = run.start(out)
         time.sleep(bench.chance.uniform(0.0, length))

@@ -3,7 +3,7 @@ second is empty where it is."""
 
 import shutil
 
-from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orphans, reading, scarce, surroundings, threads
+from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, reading, scarce, surroundings, threads
 from faults_tried.bench import SAMPLE, NotTried, refused
 
 
@@ -14,6 +14,18 @@ def bad_values(bench, entry):
         out = bench.place() / "run"
         ended = bench.call([bench.granvof, "run", entry["case"], "--set", f"{key}={value}", "--out", out], patience=10)
         yield f"{entry['case']}: {key}={value!r}", refused(ended) or ("something was written" if out.exists() else "")
+
+
+def contradictions(bench, entry):
+    """What nobody means by a case: refused, or a warning names the key."""
+    for given in bench.some(entry["given"]):
+        sets = [word for one in given for word in ("--set", one)]
+        ended = bench.call([bench.granvof, "check", entry["case"], *sets])
+        said = ended.stderr.decode(errors="replace") if ended else ""
+        tables = [one.split("=")[0].split(".")[0] for one in given]
+        warnings = [line.partition("warning: ")[2] for line in said.splitlines()]
+        warned = ended is not None and ended.returncode == 0 and any(line.startswith(tuple(tables)) for line in warnings if line)
+        yield f"{entry['case']}: {', '.join(given)}"[:120], "" if warned else refused(ended)
 
 
 def bad_files(bench, entry):
@@ -60,7 +72,7 @@ def locales(bench, entry):
 
 
 KINDS = {kind.__name__: kind for kind in (
-    bad_values, bad_files, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
+    bad_values, contradictions, bad_files, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
     interrupted.failing_calls, interrupted.signals_at_calls, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
     directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, hostile.hostile,
-    hostile.odd_cases, orphans.orphans, orphans.ended_children, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}
+    hostile.odd_cases, hostile.own_files, orders.orders, orphans.orphans, orphans.ended_children, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

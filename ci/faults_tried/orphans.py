@@ -38,11 +38,17 @@ def wait_until(true, longest):
     return True
 
 
+def as_from_a_terminal():
+    """A shell's background job ignores these, and hands that on."""
+    for number in (signal.SIGINT, signal.SIGQUIT):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def ended_in_the_midst(command, place, child, number, root):
     """Why something was left of a command that got the signal once a process with `child` in its command was there."""
     with open(place / "said", "w") as said:
         running = subprocess.Popen([str(part) for part in command], cwd=root, stdin=subprocess.DEVNULL, stdout=said,
-                                   stderr=said)
+                                   stderr=said, preexec_fn=as_from_a_terminal)
 
     def begun():
         return running.poll() is not None or any(child in words for pid, words in processes_of(place).items()
@@ -53,11 +59,12 @@ def ended_in_the_midst(command, place, child, number, root):
         running.wait()
         raise TableError(f"{command[0]}: it has started no {child}: {(place / 'said').read_text()[-200:].strip()!r}")
     running.send_signal(number)
-    running.wait()
+    wait_until(lambda: running.poll() is not None, END)
     gone = wait_until(lambda: not processes_of(place), END)
     left = processes_of(place)
     for pid in left:  # they are of this try: their command names its place
         os.kill(pid, signal.SIGKILL)
+    running.wait()
     return "" if gone else f"{len(left)} left, as {next(iter(left.values()), '?')[:100]!r}"
 
 
@@ -94,9 +101,12 @@ def ended_children(bench, entry):
 
 def orphans(bench, entry):
     """Ended while what it started goes on: nothing is left running."""
+    if "demvof" in entry["starts"] and not bench.demvof.exists():
+        raise NotTried("demvof was not built")
     for name in bench.some(entry["signals"], entry.get("sample", len(entry["signals"]))):
         place = bench.place()
         (place / "checks.toml").write_text(entry.get("checks", ""))
+        (place / "plan").write_text(entry.get("plan", "").replace("PLACE", str(place)) + "\n")
         command = bench.filled(entry["command"], work=place)
         yield (f"{name} to {' '.join(entry['command'][:2])}",
                ended_in_the_midst(command, place, entry["starts"], getattr(signal, "SIG" + name), bench.root))

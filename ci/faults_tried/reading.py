@@ -53,13 +53,19 @@ def failing_reads(bench, entry):
             place = bench.place()
             ended = bench.call(made.command(words, place), patience=600,
                                environment=bench.shimmed(FAULT_READ=str(number), FAULT_BELOW=str(place)))
-            why = crashed(ended) or traceback(ended)
+            why = unsaid(ended) or traceback(ended)
             if not why and ended.returncode == 0 and seen(ended, place)[1] != seen(whole, place)[1] and entry.get("says", True):
                 why = "exit code 0, and it says something else"
             if not why and "--resume" in words:
                 why = made.run.why_not_whole(place / "run")
             yield f"{' '.join(words[:2])}, read {number} of {reads}", why
             shutil.rmtree(place, ignore_errors=True)
+
+
+def unsaid(ended):
+    """As crashed(); a program that judges names what it cannot read in its verdicts, which are its output."""
+    verdicts = ended is not None and ended.returncode == 1 and b"cannot read" in ended.stdout
+    return "" if verdicts else crashed(ended)
 
 
 def traceback(ended):

@@ -72,6 +72,16 @@ def nightly(root, *arguments):
                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
 
+@pytest.mark.parametrize("mine", ["notes.txt", ".git/config"])
+def test_a_clone_that_is_a_users_is_not_removed(repository, mine):
+    file = repository / "out/nightly/clone" / mine
+    file.parent.mkdir(parents=True)
+    file.write_text("mine\n")
+    done = nightly(repository)
+    assert done.returncode == 2 and "no nightly run has made it" in done.stderr and done.stderr.count("\n") == 1, done.stderr
+    assert file.read_text() == "mine\n" and not (repository / "out/nightly/runs").exists()
+
+
 def test_twice_on_one_commit_is_no_change_then_a_change_then_blessed(repository):
     first = nightly(repository)
     assert first.returncode == 0, first.stdout + first.stderr

@@ -129,3 +129,10 @@ def test_what_is_left_out_with_the_reference_is_named_to_verify(bare):
     (bare / "ci/build").write_text("#!/bin/sh\n")
     assert "--without-canary" in call("make", "-s", "verify", "REFERENCE=off", cwd=bare).stdout
     assert "--without-canary" not in call("make", "-s", "verify", cwd=bare).stdout
+
+
+def test_the_proof_of_slurm_removes_nobodys_files(tmp_path):
+    (tmp_path / "notes.txt").write_text("mine\n")
+    done = call(ROOT / "ci/slurm/prove", tmp_path / "build", tmp_path)
+    assert done.returncode == 2 and "no earlier proof has made them" in done.stderr
+    assert (tmp_path / "notes.txt").read_text() == "mine\n"

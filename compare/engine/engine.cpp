@@ -47,6 +47,7 @@ std::string identity_of_program(const fs::path& program, const std::string& vers
 
 Engine::Engine(EngineOptions options) : options_(std::move(options)) {
   require_program(options_.program.at(0));
+  if (!options_.accounts.empty()) require_accounts(options_.accounts);
 }
 
 std::vector<std::string> Engine::running() const {
@@ -91,9 +92,15 @@ std::optional<Ending> Engine::start(Order order) {
     if (is_made(wanted.directory, program, active.resolved, wanted.limits)) return kept(active.ending);
     active.ending.resumed = !wanted.timed && can_be_gone_on_with(wanted.directory, program, active.resolved);
   }
-  if (wanted.clear && !active.ending.resumed) fs::remove_all(wanted.directory);
-  if (wanted.directory.has_parent_path()) fs::create_directories(wanted.directory.parent_path());
-  forget_note(wanted.directory);
+  try {
+    if (wanted.clear && !active.ending.resumed) clear_made(wanted.directory);
+    if (wanted.directory.has_parent_path()) fs::create_directories(wanted.directory.parent_path());
+    forget_note(wanted.directory);
+  } catch (const std::exception& error) {  // of what is in the way
+    active.ending.kind = ending::bad_input;
+    active.ending.message = error.what();
+    return active.ending;
+  }
   launch(active);
   active_.push_back(std::move(active));
   const int beside = static_cast<int>(active_.size()) - 1;

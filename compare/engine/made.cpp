@@ -1,6 +1,7 @@
 #include "compare/engine/made.hpp"
 
 #include <exception>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "compare/input/run.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/run_record.hpp"
+#include "solver/output/run_writer.hpp"
 #include "solver/scene/fnv1a.hpp"
 
 namespace granvof::compare {
@@ -70,7 +72,25 @@ void write_note(const fs::path& directory, const Note& note) {
 }
 
 void forget_note(const fs::path& directory) {
-  fs::remove(directory / note_file);
+  if (read_note(directory)) fs::remove(directory / note_file);
+}
+
+void clear_made(const fs::path& directory) {
+  const fs::file_status there = fs::symlink_status(directory);
+  if (!fs::exists(there)) return;
+  if (!fs::is_directory(fs::status(directory)))
+    throw std::runtime_error(fmt::format("{} is no directory", directory.string()));
+  const auto foreign = [&](const std::string& name) {
+    if (name == note_file) return !read_note(directory);
+    if (name == "run.json") return !read_note(directory) && !facts_in(directory);
+    return !is_name_of_a_run(name);
+  };
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (const std::string name = entry.path().filename().string(); foreign(name))
+      throw std::runtime_error(fmt::format("{} holds {}, which no run has left there; give another directory",
+                                           directory.string(), name));
+  remove_run(directory);
+  forget_note(directory);
 }
 
 bool is_made(const fs::path& directory, const std::string& program, const std::string& resolved_case,

@@ -23,7 +23,11 @@ struct Note {
 // Nothing where there is none, or it is damaged.
 std::optional<Note> read_note(const std::filesystem::path& directory);
 void write_note(const std::filesystem::path& directory, const Note& note);
-void forget_note(const std::filesystem::path& directory);
+void forget_note(const std::filesystem::path& directory);  // what is there and no note stays
+
+// Removes a run, whole or not, and its note. Throws std::runtime_error where there is anything else: then all
+// stays.
+void clear_made(const std::filesystem::path& directory);
 
 // What would be made is there: of this program, case and limits it would end as it did. What somebody
 // stopped, what crashed or could not write is not; nor what ended at a limit shorter than `limits`.

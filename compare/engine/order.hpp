@@ -23,7 +23,9 @@ struct Order {
   int timings = 1;  // a timed run cheaper than cheap_run is made so often
   bool keep =
       false;  // where the same program made the same run, that is taken, and one cut short gone on with
-  bool clear = false;  // the directory is the engine's own: whatever is in it goes before the run
+  // The directory is the engine's own: a run that is there goes before, whole or not. Where there is anything
+  // else nothing is run.
+  bool clear = false;
 };
 
 inline constexpr double cheap_run = 2.0;  // [core-s]: the cost of a second is mostly noise

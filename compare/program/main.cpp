@@ -19,6 +19,7 @@
 #include "compare/program/study_commands.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/empty_values.hpp"
+#include "solver/output/output_error.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/output/standard_streams.hpp"
@@ -123,6 +124,9 @@ int lay_beside(const LayOptions& options, const Paths& paths) {
 // they are a run of: a record keeps it, and goes stale with it.
 int extract_series(const LayOptions& options, const Paths& paths) {
   const Scene scene = scene_of(options, paths);
+  require_own_file(options.out, "time [s]");
+  if (std::filesystem::exists(options.out.parent_path() / "run.json"))
+    throw OutputError("write", options.out, "a run is there, whose file it would be; give another directory");
   const Series series = read_their_fields(options.fields, scene).series;
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   SeriesFile file = SeriesFile::create(options.out, series.columns);

@@ -207,6 +207,45 @@ TEST_F(RunEngine, EachRunIsALineOfTheAccounts) {
   EXPECT_NE(account[2].find(",b,finished,0.5,"), std::string::npos) << account[2];
 }
 
+// What a killed run leaves goes; what is somebody's stays, and so does all beside it.
+TEST_F(RunEngine, WhatIsClearedIsARunAndNothingElse) {
+  Engine made = engine(leaves("finished"));
+  Order wanted = order("kept");
+  wanted.clear = true;
+  fs::create_directories(root_ / "kept/fields");
+  for (const char* left : {"run.json.tmp", "series.csv", "fields/t0000.h5", "run.log"})
+    std::ofstream(root_ / "kept" / left) << "left by a run";
+  EXPECT_EQ(made.make(wanted).kind, ending::finished);
+  EXPECT_FALSE(fs::exists(root_ / "kept/series.csv"));
+  for (const char* mine : {"notes.txt", "made.json", "run.json", "fields.h5.bak"}) {
+    const fs::path folder = root_ / (std::string("of a user ") + mine);
+    fs::create_directories(folder);
+    std::ofstream(folder / mine) << "{\"mine\": 1}";
+    std::ofstream(folder / "series.csv") << "mine";
+    wanted.directory = folder;
+    const Ending refused = made.make(wanted);
+    EXPECT_EQ(refused.kind, ending::bad_input) << mine;
+    EXPECT_NE(refused.message.find(mine), std::string::npos) << refused.message;
+    EXPECT_TRUE(fs::exists(folder / mine) && fs::exists(folder / "series.csv")) << mine;
+  }
+  for (const fs::path& place : {root_ / "kept/..", root_, root_ / "program"}) {
+    wanted.directory = place;
+    EXPECT_EQ(made.make(wanted).kind, ending::bad_input) << place;
+    EXPECT_TRUE(fs::exists(root_ / "of a user notes.txt/notes.txt") && fs::exists(root_ / "program"))
+        << place;
+  }
+}
+
+TEST_F(RunEngine, AccountsAreAddedToAccountsAndToNothingElse) {
+  std::ofstream(root_ / "accounts.csv") << "of a user\n";
+  EXPECT_THROW(engine(leaves("finished")), std::runtime_error);
+  EXPECT_EQ(lines("accounts.csv"), std::vector<std::string>{"of a user"});
+  fs::remove(root_ / "accounts.csv");
+  EXPECT_EQ(engine(leaves("finished")).make(order("a")).kind, ending::finished);
+  EXPECT_EQ(engine(leaves("finished")).make(order("b")).kind, ending::finished);
+  EXPECT_EQ(lines("accounts.csv").size(), 3U);
+}
+
 TEST_F(RunEngine, AProgramThatIsNotThereIsSaid) {
   EXPECT_THROW(Engine({{(root_ / "nothing").string()}, 1, {}}), std::runtime_error);
 }

@@ -1,5 +1,6 @@
 """OpenFOAM cases from ours, without running OpenFOAM."""
 import math
+import subprocess
 import sys
 from pathlib import Path
 
@@ -89,3 +90,12 @@ def test_parcels_fill_the_bed_evenly_and_hold_all_its_beads(tmp_path):
     found = parcels.positions(parcels.bed_box(tank), tank.spacing, 100, True)
     assert len(found) == 600
     assert sum(x < 0.02 and y < 0.01 for x, y, _ in found) == 100 and all(0.01 <= x <= 0.04 and 0 <= y <= 0.02 for x, y, _ in found)
+
+
+@pytest.mark.parametrize("scene", ["..", ".", "", "a/../..", "/nothing/there", "a b"])
+def test_a_scene_that_is_no_name_is_refused_before_anything_is_replaced(tmp_path, scene):
+    (tmp_path / "interFoam").mkdir()
+    (tmp_path / "notes.txt").write_text("mine\n")
+    done = subprocess.run([REFERENCE / "peers/run", "--out", tmp_path, "interFoam", scene], capture_output=True, text=True)
+    assert done.returncode == 2 and "a name has letters" in done.stderr, done.stderr
+    assert (tmp_path / "notes.txt").exists() and (tmp_path / "interFoam").exists()

@@ -121,6 +121,14 @@ void require_file(const std::filesystem::path& path, const std::string& action) 
                     std::filesystem::is_directory(status) ? reason(EISDIR) : "it is a device or a pipe");
 }
 
+void require_own_file(const std::filesystem::path& path, std::string_view beginning) {
+  require_file(path, "write");
+  if (!std::filesystem::exists(path)) return;
+  const std::string content = read_file(path);
+  if (!content.empty() && !content.starts_with(beginning))
+    throw OutputError("write", path, "it is there and holds something else; give another name");
+}
+
 std::string read_file(const std::filesystem::path& path) {
   require_file(path);
   // Not to wait, should a pipe have taken its name since.

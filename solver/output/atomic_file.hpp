@@ -25,6 +25,10 @@ void overwrite_file(const std::filesystem::path& path, std::string_view content)
 // other end, a device may have none.
 void require_file(const std::filesystem::path& path, const std::string& action = "read");
 
+// Before something is written under a name that a user gives: throws OutputError where a device is there, or
+// a file that is not empty and does not begin so: it is somebody's, perhaps what is just being read.
+void require_own_file(const std::filesystem::path& path, std::string_view beginning);
+
 // Whole content of a file. Throws OutputError.
 std::string read_file(const std::filesystem::path& path);
 

@@ -88,6 +88,21 @@ std::vector<Column> series_columns(std::span<const Column> monitors) {
   return columns;
 }
 
+bool is_name_of_a_run(const std::string& name) {
+  const std::string whole = name.ends_with(".tmp") ? name.substr(0, name.size() - 4) : name;
+  return whole == record_name || whole == "fields.h5" || whole == "fields.xdmf" || name == "fields" ||
+         std::find(owned_names.begin(), owned_names.end(), whole) != owned_names.end();
+}
+
+void remove_run(const fs::path& directory) {
+  remove_owned(directory);
+  for (const fs::path& file : {directory / record_name, directory / (std::string(record_name) + ".tmp")}) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw OutputError("remove", file, error.message());
+  }
+}
+
 RunWriter::RunWriter(fs::path directory, Scene scene, RunStart start, std::span<const Column> monitors)
     : directory_(std::move(directory)),
       scene_(std::move(scene)),

@@ -22,6 +22,11 @@
 
 namespace granvof {
 
+// Whether a run, or one that was killed, leaves a file or a folder of this name in its directory.
+bool is_name_of_a_run(const std::string& name);
+// Removes them, and of the folder of instants what is an instant. Throws OutputError.
+void remove_run(const std::filesystem::path& directory);
+
 struct ResumedRun;
 
 class RunWriter {

@@ -17,9 +17,24 @@ struct NamedSignal {
   int number;
   const char* name;
 };
-constexpr std::array stopping_signals{NamedSignal{SIGINT, "SIGINT"},   NamedSignal{SIGTERM, "SIGTERM"},
-                                      NamedSignal{SIGHUP, "SIGHUP"},   NamedSignal{SIGUSR1, "SIGUSR1"},
-                                      NamedSignal{SIGXCPU, "SIGXCPU"}, NamedSignal{SIGPIPE, "SIGPIPE"}};
+// All that would end the program but for those that tell of a fault in it, and KILL.
+constexpr std::array stopping_signals{
+    NamedSignal{SIGINT, "SIGINT"},   NamedSignal{SIGTERM, "SIGTERM"},     NamedSignal{SIGHUP, "SIGHUP"},
+    NamedSignal{SIGQUIT, "SIGQUIT"}, NamedSignal{SIGUSR1, "SIGUSR1"},     NamedSignal{SIGUSR2, "SIGUSR2"},
+    NamedSignal{SIGXCPU, "SIGXCPU"}, NamedSignal{SIGPIPE, "SIGPIPE"},     NamedSignal{SIGALRM, "SIGALRM"},
+    NamedSignal{SIGPROF, "SIGPROF"}, NamedSignal{SIGPOLL, "SIGPOLL"},     NamedSignal{SIGVTALRM, "SIGVTALRM"},
+#ifdef SIGPWR  // of Linux
+    NamedSignal{SIGPWR, "SIGPWR"},   NamedSignal{SIGSTKFLT, "SIGSTKFLT"},
+#endif
+};
+
+using Handler = void (*)(int);
+
+// What is done at a signal now.
+Handler handler_of(int signal) {
+  struct sigaction now {};
+  return ::sigaction(signal, nullptr, &now) == 0 ? now.sa_handler : SIG_DFL;
+}
 
 }  // namespace
 
@@ -27,11 +42,12 @@ void listen_to_stop_signals() {
   stop_requested = 0;
   ::sigset_t wanted;
   ::sigemptyset(&wanted);
-  for (const NamedSignal& signal : stopping_signals) ::sigaddset(&wanted, signal.number);
+  for (const NamedSignal& signal : stopping_signals) {
+    const bool is_free = handler_of(signal.number) == SIG_DFL || signal.number == SIGPIPE;
+    if (is_free) std::signal(signal.number, request_stop);
+    if (handler_of(signal.number) == request_stop) ::sigaddset(&wanted, signal.number);
+  }
   ::pthread_sigmask(SIG_UNBLOCK, &wanted, nullptr);
-  for (const NamedSignal& signal : stopping_signals)
-    if (std::signal(signal.number, request_stop) == SIG_IGN && signal.number != SIGPIPE)
-      std::signal(signal.number, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -7,10 +7,12 @@
 
 namespace granvof {
 
-// From here on INT, TERM, HUP, USR1, XCPU and PIPE are remembered instead of ending the program, and none is
-// yet. One that the caller had ignored (nohup, a shell's background) stays ignored, but PIPE: that is how the
-// run learns that nobody reads it. One that the caller had blocked is let through. XFSZ is ignored: a file
-// that may not grow shows as a failed write.
+// From here on every signal that would end the program, but for KILL and those that tell of a fault in it
+// (SEGV, ABRT, ...), is remembered instead, and none is yet: TERM, INT, HUP, QUIT, USR1, USR2, XCPU, PIPE,
+// the timers and others. One that the caller had ignored (nohup, a shell's background) stays ignored, but
+// PIPE: that is how the run learns that nobody reads it. One for which something else in the program listens
+// (a profiler) is left to it. One that the caller had blocked is let through. XFSZ is ignored: a file that
+// may not grow shows as a failed write.
 void listen_to_stop_signals();
 
 // The number of the last one that has come since; 0 where none has.

@@ -46,6 +46,23 @@ Usual fractions_that_rest(const Scene& s) {
   return {0.0, rests};
 }
 
+// Grains that the bed holds, were it as deep as the tank.
+double grains_of_bed(const Scene& s) {
+  const Box& bed = s.bed->box;
+  double volume = s.bed->solid_fraction;
+  for (int axis = 0; axis < 3; ++axis) volume *= extent(bed, axis) > 0.0 ? extent(bed, axis) : s.tank[2];
+  return volume / (std::numbers::pi / 6.0 * std::pow(s.solid.diameter, 3));
+}
+
+// Of the thinnest box of liquid, along the axis on which it is thinnest [m].
+Number thinnest_liquid(const Scene& s) {
+  Number thinnest;
+  for (const Box& box : s.liquid_boxes)
+    for (int axis = 0; axis < s.dimensions; ++axis)
+      if (!thinnest || extent(box, axis) < *thinnest) thinnest = extent(box, axis);
+  return thinnest;
+}
+
 double off_the_bed(const Scene& s) {
   const Box& bed = s.bed->box;
   return std::min(std::fabs(s.gate->position - bed.lower[0]), std::fabs(s.gate->position - bed.upper[0]));
@@ -76,10 +93,18 @@ double time_of_change(const Scene& s) {
 // Share of time_of_change that a step may take: s1 on 5 mm with steps up to 0.07 / 0.14 / 0.28 of it has its
 // front 0.4 / 0.9 / 1.1 % farther than with 0.014.
 constexpr double longest_step = 0.2;
+constexpr double shortest_step = 1e-6;  // below it no scheme of first order in time gains a digit
+constexpr double longest_hold = 1e3;    // times of the scene
 
 // --- the table -------------------------------------------------------------------------------------------
 
+constexpr double thinnest_of_cell = 0.1;  // of liquid, in cells: less shows in no profile
+
 constexpr Usual of_grains{1e-5, 0.1};  // their diameter [m]
+// A diameter that is no grain's says nothing about the cells or the bed.
+bool is_grain(const Scene& s) {
+  return s.solid.diameter >= of_grains.lower && s.solid.diameter <= of_grains.upper;
+}
 
 std::vector<Row> tank_rows() {
   const auto largest = [](const Scene& s) -> Number {
@@ -108,10 +133,7 @@ std::vector<Row> grid_rows() {
   return {
       row(
           "grid.dx", "m",
-          [](const Scene& s) {  // a diameter that is no grain's says nothing about the cells
-            const bool grains = s.solid.diameter >= of_grains.lower && s.solid.diameter <= of_grains.upper;
-            return grains ? if_bed(s, smallest_cell(s)) : std::nullopt;
-          },
+          [](const Scene& s) { return is_grain(s) ? if_bed(s, smallest_cell(s)) : std::nullopt; },
           [](const Scene& s) {
             return Usual{0.25 * s.solid.diameter, 1e3 * s.solid.diameter};
           },
@@ -163,6 +185,12 @@ std::vector<Row> fluid_rows() {
       missing(
           "liquid.level", [](const Scene& s) { return s.liquid_boxes.empty() && s.liquid != s.gas; },
           "a level or a liquid.box", "the case has a [liquid], but none of it in the tank"),
+      row(
+          "liquid", "m", thinnest_liquid,
+          [](const Scene& s) {
+            return Usual{thinnest_of_cell * smallest_cell(s), infinity};
+          },
+          "the grid does not resolve liquid that is so thin (liquid.level, liquid.box.size)"),
       row("liquid.viscosity", "Pa s", thickness, Usual{0.0, 0.3},
           "a liquid as heavy as water that flows like syrup; water has 1e-3; mPa s (cP)?"),
   };
@@ -234,6 +262,13 @@ std::vector<Row> bed_rows() {
                 s.contact.solid_fraction_min, springs(s, s.bed->solid_fraction));
           }),
       row(
+          "bed.solid_fraction", "",
+          [](const Scene& s) { return s.bed && is_grain(s) ? Number(s.bed->solid_fraction) : std::nullopt; },
+          [](const Scene& s) {
+            return Usual{s.bed->solid_fraction / grains_of_bed(s), infinity};
+          },
+          "the bed holds not one grain of solid.diameter"),
+      row(
           "bed.colour_size", "m",
           [](const Scene& s) {
             return s.bed && s.bed->colour != ColourPattern::uniform ? Number(s.bed->colour_size)
@@ -281,14 +316,28 @@ std::vector<Row> run_rows() {
           },
           "against the time in which the scene changes; time.unit, or milliseconds?"),
       row(
-          "numerics.dt_max", "s", [](const Scene& s) -> Number { return s.numerics.dt_max; },
+          "time.hold", "s", [](const Scene& s) -> Number { return positive(s.times.hold); },
           [](const Scene& s) {
-            return Usual{0.0, longest_step * time_of_change(s)};
+            return Usual{0.0, longest_hold * scales_of(s).time()};
           },
           [](const Scene& s) {
-            return fmt::format("the scene changes in {:.3g} s; results follow a longer step",
-                               time_of_change(s));
+            return fmt::format(
+                "a bed that the gate holds rests in some times of {:.3g} s; the run begins after it",
+                scales_of(s).time());
           }),
+      row(
+          "numerics.dt_max", "s", [](const Scene& s) -> Number { return s.numerics.dt_max; },
+          [](const Scene& s) {
+            return Usual{shortest_step * scales_of(s).time(), longest_step * time_of_change(s)};
+          },
+          [](const Scene& s) {
+            return fmt::format(
+                "the scene changes in {:.3g} s; results follow a longer step, a far shorter one only costs",
+                time_of_change(s));
+          }),
+      row(
+          "numerics.cfl", "", [](const Scene& s) -> Number { return s.numerics.cfl; }, Usual{1e-3, infinity},
+          "a step in which nothing moves by a thousandth of a cell only costs"),
       row(
           "numerics.dt_min", "s", [](const Scene& s) -> Number { return s.numerics.dt_min; },
           [](const Scene& s) {

@@ -35,6 +35,10 @@ inline std::string text_of(const Usual& usual, const std::string& unit) {
   std::string text = fmt::format("{:.3g} to {:.3g}", usual.lower, usual.upper);
   if (usual.upper == infinity) text = fmt::format("at least {:.3g}", usual.lower);
   if (usual.lower == 0.0) text = fmt::format("at most {:.3g}", usual.upper);
+  if (usual.lower > usual.upper)
+    return fmt::format("none, which would be {} and {}",
+                       with_unit(fmt::format("at least {:.3g}", usual.lower), unit),
+                       with_unit(fmt::format("at most {:.3g}", usual.upper), unit));
   return with_unit(text, unit);
 }
 

@@ -80,8 +80,10 @@ int run(Arguments& arguments) {
 
 int check(const Arguments& arguments) {
   const granvof::Scene scene = load(arguments);
-  if (!arguments.picture.empty())
+  if (!arguments.picture.empty()) {
+    granvof::require_own_file(arguments.picture, "<svg");
     granvof::write_file_atomically(arguments.picture, granvof::picture_of_start(scene));
+  }
   const auto& cells = scene.grid.cells;
   const granvof::CostEstimate cost = granvof::estimate_cost(scene);
   fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n", scene.name, cells[0], cells[1], cells[2],

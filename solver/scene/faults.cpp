@@ -11,6 +11,8 @@ namespace granvof::case_file {
 namespace {
 
 constexpr std::size_t most_lines = 20;
+constexpr std::size_t longest_message =
+    1900;  // bytes, for a terminal; the first line is said however long it is
 
 bool within(std::string_view key, std::string_view table) {
   return key == table || (key.starts_with(table) && key[table.size()] == '.');
@@ -27,10 +29,14 @@ void Faults::throw_if_any() const {
   std::vector<Fault> sorted = list_;
   std::ranges::stable_sort(sorted, {}, &Fault::place);
   std::string lines;
-  for (std::size_t i = 0; i < std::min(sorted.size(), most_lines); ++i) {
-    lines += fmt::format("{}{}: {}", i == 0 ? "" : "\n", sorted[i].place.text(), sorted[i].message);
+  std::size_t said = 0;
+  for (; said < std::min(sorted.size(), most_lines); ++said) {
+    const std::string line =
+        fmt::format("{}{}: {}", said == 0 ? "" : "\n", sorted[said].place.text(), sorted[said].message);
+    if (said > 0 && lines.size() + line.size() > longest_message) break;
+    lines += line;
   }
-  if (sorted.size() > most_lines) lines += fmt::format("\nand {} more faults", sorted.size() - most_lines);
+  if (said < sorted.size()) lines += fmt::format("\nand {} more faults", sorted.size() - said);
   throw CaseError(lines);
 }
 

@@ -120,6 +120,11 @@ TEST_F(Program, DrawsTheStart) {
   const std::string dam = drawn(shipped("dam-break"));
   EXPECT_EQ(count(dam, "class=\"bed\"") + count(dam, "class=\"gate\""), 0);
   expect_refused("check " + shipped("s1") + " --picture /nonexistent/start.svg", "/nonexistent");
+  // A picture is drawn over a picture, and over nothing else: the case itself, say.
+  const std::filesystem::path other = pictures.path() / "s1.toml";
+  std::ofstream(other) << "scene";
+  expect_refused("check " + shipped("s1") + " --picture " + other.string(), "holds something else");
+  EXPECT_EQ(std::filesystem::file_size(other), 5U);
 }
 
 TEST_F(Program, RestatesACase) {

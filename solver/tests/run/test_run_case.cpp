@@ -188,11 +188,11 @@ TEST_F(RunCase, StoppedBySignalAndResumed) {
 }
 
 TEST_F(RunCase, EverySignalOfASchedulerOrAShellStopsItWithACheckpoint) {
-  const std::vector<std::pair<int, std::string>> signals{{SIGINT, "SIGINT"},
-                                                         {SIGHUP, "SIGHUP"},
-                                                         {SIGUSR1, "SIGUSR1"},
-                                                         {SIGXCPU, "SIGXCPU"},
-                                                         {SIGPIPE, "SIGPIPE"}};
+  const std::vector<std::pair<int, std::string>> signals{
+      {SIGINT, "SIGINT"},       {SIGHUP, "SIGHUP"},   {SIGQUIT, "SIGQUIT"}, {SIGUSR1, "SIGUSR1"},
+      {SIGUSR2, "SIGUSR2"},     {SIGXCPU, "SIGXCPU"}, {SIGPIPE, "SIGPIPE"}, {SIGALRM, "SIGALRM"},
+      {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"}, {SIGPOLL, "SIGPOLL"}, {SIGPWR, "SIGPWR"},
+      {SIGSTKFLT, "SIGSTKFLT"}};
   const Scene scene = column_scene({"time.end=2"});
   for (const auto& [signal, name] : signals) {
     EXPECT_EQ(stopped_by(signal, path(name.c_str()), scene), 1) << name;

@@ -375,9 +375,11 @@ TEST(CaseErrors, AllBadOverridesAreNamed) {
 TEST(CaseErrors, AreOfBoundedLengthAndNumber) {
   std::string many;
   for (int i = 0; i < 1000; ++i) many += "odd_key_number_" + std::to_string(i) + " = 1\n";
-  const auto lines = lines_of(refusal_of(std::string(small_case) + many));
-  EXPECT_EQ(lines.size(), 21U);
-  EXPECT_EQ(lines.back(), "and 980 more faults");
+  const std::string refusal = refusal_of(std::string(small_case) + many);
+  const auto lines = lines_of(refusal);
+  EXPECT_LE(refusal.size(), 2000U);
+  EXPECT_GT(lines.size(), 2U);
+  EXPECT_EQ(lines.back(), "and " + std::to_string(1000 - (lines.size() - 1)) + " more faults");
   const std::string longest(100000, 'x');
   for (const std::string& text :
        {edited("[gate]", "[gate]\n" + longest + " = 1"),
