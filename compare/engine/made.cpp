@@ -82,7 +82,7 @@ void clear_made(const fs::path& directory) {
     throw std::runtime_error(fmt::format("{} is no directory", directory.string()));
   const auto foreign = [&](const std::string& name) {
     if (name == note_file) return !read_note(directory);
-    if (name == "run.json") return !read_note(directory) && !facts_in(directory);
+    if (name == "run.json") return !read_note(directory) && !read_existing_run(directory / name);
     return !is_name_of_a_run(name);
   };
   for (const auto& entry : fs::directory_iterator(directory))
