@@ -80,10 +80,13 @@ void clear_made(const fs::path& directory) {
   if (!fs::exists(there)) return;
   if (!fs::is_directory(fs::status(directory)))
     throw std::runtime_error(fmt::format("{} is no directory", directory.string()));
+  const auto facts = facts_in(directory);
+  const bool by_a_run = read_note(directory) || (facts && !facts->exit.empty());
+  // what a run that was killed in its first moment leaves
+  const bool begun = fs::exists(directory / "run.json.tmp") && !fs::exists(directory / "run.json");
   const auto foreign = [&](const std::string& name) {
     if (name == note_file) return !read_note(directory);
-    if (name == "run.json") return !read_note(directory) && !read_existing_run(directory / name);
-    return !is_name_of_a_run(name);
+    return !(by_a_run || begun) || !is_name_of_a_run(name);
   };
   for (const auto& entry : fs::directory_iterator(directory))
     if (const std::string name = entry.path().filename().string(); foreign(name))

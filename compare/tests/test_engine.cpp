@@ -228,6 +228,11 @@ TEST_F(RunEngine, WhatIsClearedIsARunAndNothingElse) {
     EXPECT_NE(refused.message.find(mine), std::string::npos) << refused.message;
     EXPECT_TRUE(fs::exists(folder / mine) && fs::exists(folder / "series.csv")) << mine;
   }
+  fs::create_directories(root_ / "series of a user");
+  std::ofstream(root_ / "series of a user/series.csv") << "mine";
+  wanted.directory = root_ / "series of a user";
+  EXPECT_EQ(made.make(wanted).kind, ending::bad_input);
+  EXPECT_TRUE(fs::exists(root_ / "series of a user/series.csv"));
   for (const fs::path& place : {root_ / "kept/..", root_, root_ / "program"}) {
     wanted.directory = place;
     EXPECT_EQ(made.make(wanted).kind, ending::bad_input) << place;
