@@ -94,6 +94,7 @@ void clear_made(const fs::path& directory) {
                                            directory.string(), name));
   remove_run(directory);
   forget_note(directory);
+  if (fs::is_directory(there) && fs::is_empty(directory)) fs::remove(directory);  // not a link to one
 }
 
 bool is_made(const fs::path& directory, const std::string& program, const std::string& resolved_case,
