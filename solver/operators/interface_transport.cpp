@@ -125,15 +125,6 @@ void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alph
   subtract_divergence(grid_, dt, flux_c, f_c_end);
   for (int d = 0; d < grid_.dim; ++d) face_alpha(d, alpha, flux_c);
   limit_corrections(dt, f_c_end);
-  grid_.for_each_open_side([&](int d, bool upper) {
-    const double *q = flux_c[d].data(), *corr = correction_[d].data();
-    const std::ptrdiff_t s = grid_.stride(d);
-    const Range faces = grid_.side_faces(d, upper);
-    passed_.left[2 * d + (upper ? 1 : 0)] += (upper ? dt : -dt) * grid_.cell_volume / grid_.h[d] *
-                                             sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
-                                               return q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c];
-                                             });
-  });
   for (int d = 0; d < grid_.dim; ++d) {
     const double *q = flux_c[d].data(), *corr = correction_[d].data();
     double* liquid = passed_.through[d].data();

@@ -1,23 +1,30 @@
 // Liquid that passes the faces in a step.
 #pragma once
 
-#include <array>
-#include <numeric>
-
 #include "solver/grid/field.hpp"
 
 namespace granvof {
 
 struct LiquidPassed {
-  std::array<double, 6> left{};  // through the sides, outwards, by SideIndex [m3]
-  FaceField through;             // of every face, along the axis, per area of the face [m]
+  FaceField through;  // of every face, along the axis, per area of the face [m]
 
   explicit LiquidPassed(const Grid& grid) : through(grid) {}
   void clear(const Grid& grid) {
-    left = {};
     for (int d = 0; d < grid.dim; ++d) through[d].fill(0.0);
   }
-  double total() const { return std::accumulate(left.begin(), left.end(), 0.0); }
+  // Through a side, outwards [m3].
+  double left(const Grid& grid, int d, bool upper) const {
+    const double* liquid = through[d].data();
+    const double area = grid.cell_volume / grid.h[d];
+    return (upper ? area : -area) *
+           sum_over(grid.cells, grid.side_faces(d, upper), [=](std::ptrdiff_t c) { return liquid[c]; });
+  }
+  // Through all of them [m3].
+  double total(const Grid& grid) const {
+    double sum = 0.0;
+    grid.for_each_open_side([&](int d, bool upper) { sum += left(grid, d, upper); });
+    return sum;
+  }
 };
 
 }  // namespace granvof

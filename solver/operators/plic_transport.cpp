@@ -103,13 +103,6 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
     fc[c] -= dt_h * (q[c + s] - q[c]);
     a[c] = std::clamp(held / fc[c], 0.0, 1.0);  // within bounds already but for rounding
   });
-  for (const bool upper : {false, true}) {
-    if (!grid_.side(d, upper).is_open()) continue;
-    const Range faces = grid_.side_faces(d, upper);
-    passed.left[2 * d + (upper ? 1 : 0)] +=
-        (upper ? dt_h : -dt_h) * grid_.cell_volume *
-        sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) { return liquid[c]; });
-  }
   double* through = passed.through[d].data();
   for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) { through[c] += dt * liquid[c]; });
 }

@@ -136,7 +136,7 @@ void Faces::add_potential_out(int d, bool upper) {
   const double rho_l = scene_.liquid.density, rho_g = scene_.gas.density, rho_s = scene_.solid.density;
   const double sign = upper ? 1.0 : -1.0, area = grid_.cell_volume / grid_.h[d], dt = dt_;
   const auto total = [&](auto&& term) { return sum_over(grid_.cells, faces, term); };
-  const double left = trace_.passed.left[2 * d + (upper ? 1 : 0)];
+  const double left = trace_.passed.left(grid_, d, upper);
   const double volume = sign * dt_ * area * total([=](std::ptrdiff_t c) { return q[c]; });
   const double solid = sign * dt_ * area * rho_s * total([=](std::ptrdiff_t c) { return qs[c]; });
   const double mass = rho_l * left + rho_g * (volume - left) + solid;

@@ -116,7 +116,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
     if (scene_.model.carries_packing())
       transport_with_grains(grid_, dt, now.f_s, next.f_s, flux_s_, now.packing, next.packing);
     passed = &interface_.advance(dt, now.alpha, now.f_s, flux_c_, next.alpha);
-    report.liquid_left = passed->total();
+    report.liquid_left = passed->total(grid_);
     report.solid_left = solid_left(grid_, dt, flux_s_);
     set_pressure_level(grid_, scene_, next.alpha, next.p_c);
     boundary_.fill_solid_fraction(next.f_s);
