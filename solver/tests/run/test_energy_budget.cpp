@@ -184,45 +184,24 @@ TEST(EnergyBudget, UpwindMomentumTakesWhatItsViscosityPredicts) {
 TEST(EnergyBudget, UpwindGrainsAreLiftedAsTheirDiffusionPredicts) {
   for (const char* cell : {"0.01", "0.005"}) {
     constexpr double speed = 0.02, fraction = 0.1, dt = 1e-4;
-    Simulation run(parse_scene(fmt::format(R"([scene]
-name = "lift"
-dimensions = 2
-[tank]
-size = [0.02, 0.2]
-[grid]
-dx = 0.01
-dy = {}
+    Simulation run(
+        test::small_tank("lift", "size = [0.02, 0.2]", 0.2,
+                         fmt::format(R"([bed]
+length = 0.02
+height = 0.04
+solid_fraction = 0.5
 [walls]
 all = "slip"
 bottom = {{ inflow = {} }}
 top = {{ outflow_pressure = 0 }}
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.2
-[solid]
-density = 2500
-diameter = 1e-5
-friction = 0.4
-[bed]
-length = 0.02
-height = 0.04
-solid_fraction = 0.5
 [model]
 preset = "paper"
 granular_temperature = "off"
 [numerics]
 volume_tolerance = 1e-10
-[time]
-end = 1
-[output]
-series_interval = 1
 )",
-                                           cell, speed),
-                               "lift.toml", {}));
+                                     speed),
+                         {"grid.dx=0.01", fmt::format("grid.dy={}", cell), "solid.diameter=1e-5"}));
     run.set(run.now.f_s, [](double, double y) { return y < 0.1 ? fraction : 0.0; });
     run.now.u_s[1].fill(speed);
     run.now.u_c[1].fill(speed);
