@@ -18,7 +18,6 @@
 #include "solver/output/run_record.hpp"
 
 namespace granvof::compare {
-
 namespace {
 
 constexpr std::string_view header =
@@ -34,8 +33,8 @@ void write_account(const std::filesystem::path& file, const Ending& ending) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
   if (!out.valid()) throw OutputError("write", file, std::generic_category().message(errno));
-  ::flock(out.get(),
-          LOCK_EX);  // tasks of a job array write the same; a file system without locks goes without
+  // Tasks of a job array write the same; a file system without locks goes without.
+  ::flock(out.get(), LOCK_EX);
   std::string lines;
   if (::lseek(out.get(), 0, SEEK_END) == 0) lines = header;
   std::string host = host_facts().cpu_model;

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* note_file = "made.json";
+
 bool is_cut_short(std::string_view kind) {
   return kind == ending::running || kind == ending::signal || kind == ending::cpu_limit ||
          kind == name_of(ExitKind::wall_clock_limit);
@@ -80,13 +81,13 @@ void clear_made(const fs::path& directory) {
   if (!fs::exists(there)) return;
   if (!fs::is_directory(fs::status(directory)))
     throw std::runtime_error(fmt::format("{} is no directory", directory.string()));
+  const bool noted = read_note(directory).has_value();
   const auto facts = facts_in(directory);
-  const bool by_a_run = read_note(directory) || (facts && !facts->exit.empty());
   // what a run that was killed in its first moment leaves
   const bool begun = fs::exists(directory / "run.json.tmp") && !fs::exists(directory / "run.json");
-  const auto foreign = [&](const std::string& name) {
-    if (name == note_file) return !read_note(directory);
-    return !(by_a_run || begun) || !is_name_of_a_run(name);
+  const bool of_a_run = noted || begun || (facts && !facts->exit.empty());
+  const auto foreign = [=](const std::string& name) {
+    return name == note_file ? !noted : !(of_a_run && is_name_of_a_run(name));
   };
   for (const auto& entry : fs::directory_iterator(directory))
     if (const std::string name = entry.path().filename().string(); foreign(name))

@@ -1,7 +1,8 @@
 #include "solver/grid/obstacles.hpp"
 
-#include <cmath>
 #include <cstdlib>
+
+#include "solver/scene/box_cells.hpp"
 
 namespace granvof {
 namespace {
@@ -28,12 +29,8 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
   if (boxes.empty()) return;
   solid_.assign(l.size, 0);
   for (const Box& box : boxes) {
-    std::array<int, 3> lower{0, 0, 0}, upper{1, 1, 1};
-    for (int d = 0; d < dim; ++d) {
-      lower[d] = static_cast<int>(std::lround(box.lower[d] / spacing[d]));
-      upper[d] = static_cast<int>(std::lround(box.upper[d] / spacing[d]));
-    }
-    for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
+    const BoxCells cells = cells_of(box, spacing, dim);
+    for_each_place({cells.lower, cells.upper}, [&](const std::array<int, 3>& at) {
       char& solid = solid_[static_cast<std::size_t>(l.index(at))];
       if (solid == 0) cells_.push_back(l.index(at));
       solid = 1;

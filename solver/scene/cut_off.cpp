@@ -1,7 +1,8 @@
 #include "solver/scene/cut_off.hpp"
 
-#include <cmath>
 #include <vector>
+
+#include "solver/scene/box_cells.hpp"
 
 namespace granvof {
 namespace {
@@ -12,12 +13,8 @@ class Rooms {
  public:
   explicit Rooms(const Scene& scene) : scene_(scene), n_(scene.grid.cells), closed_(count(), false) {
     for (const Box& box : scene.obstacles) {
-      Place lower{0, 0, 0}, upper = n_;
-      for (int d = 0; d < scene.dimensions; ++d) {
-        lower[d] = static_cast<int>(std::lround(box.lower[d] / scene.grid.spacing[d]));
-        upper[d] = static_cast<int>(std::lround(box.upper[d] / scene.grid.spacing[d]));
-      }
-      for_each(lower, upper, [&](const Place& at) { closed_[index(at)] = true; });
+      const BoxCells cells = cells_of(box, scene.grid.spacing, scene.dimensions);
+      for_each(cells.lower, cells.upper, [&](const Place& at) { closed_[index(at)] = true; });
     }
   }
 

@@ -15,9 +15,8 @@ namespace granvof::closures {
 struct DragTenneti : DragOfForce<DragTenneti> {
   static constexpr ClosureFacts facts{"tenneti", "Tenneti et al. (2011)"};
 
-  // F = drag / (3 pi mu d U) [-], the mean pressure gradient's part taken off; f_s in [0, 1), Re = rho U d /
-  // mu
-  // >= 0, U = f_c |u_c - u_s|.
+  // F = drag / (3 pi mu d U) [-], the mean pressure gradient's part taken off; f_s in [0, 1),
+  // Re = rho U d / mu >= 0, U = f_c |u_c - u_s|.
   static double force(double f_s, double re) {
     const double f_c = 1.0 - f_s, cube = f_c * f_c * f_c, f_s3 = f_s * f_s * f_s;
     const double lone = 1.0 + 0.15 * std::pow(re, 0.687);  // Schiller & Naumann
