@@ -45,7 +45,7 @@ Values evaluate(const Units& u) {
   const double theta = 0.04 * u.theta();
   const double e = effective_restitution(0.9, theta, rho_s, d_s, liquid.viscosity);
   const double f_s = 0.58;
-  const double g0 = radial_distribution(f_s, contact.solid_fraction_max);
+  const double g0 = RadialPaper::value(f_s, {contact.solid_fraction_max});
   const double enduring = enduring_pressure(f_s, theta, e, rho_s, contact, true);
   return {.drag = drag_coefficient(drag_paper, 0.2, 0.6, 0.3 * u.speed(), gas, liquid, d_s),
           .restitution = e,
@@ -56,7 +56,7 @@ Values evaluate(const Units& u) {
           .conductivity = conductivity(f_s, theta, e, g0, rho_s, d_s),
           .dissipation = dissipation(f_s, theta, e, g0, rho_s, d_s, 3.0 / u.s),
           .friction = friction_viscosity(enduring, 0.4, contact.regularisation, 2e-5 / u.s),
-          .inertial = inertial_friction(enduring, 10.0 / u.s, 0.4, 0.643, 0.279, rho_s, d_s)};
+          .inertial = FrictionInertial::coefficient({enduring, 10.0 / u.s}, {rho_s, d_s, 0.9, 0.4}, contact)};
 }
 
 TEST(Units, EveryClosureIsDimensionallyConsistent) {
