@@ -71,9 +71,10 @@ inline double sum_over(const Layout& l, const Range& r, Body&& body) {
   const int length = r.upper[0] - r.lower[0];
   return sum_rows(r, [&](int j, int k) {
     const std::ptrdiff_t start = l.index(r.lower[0], j, k);
+    const auto of_row = body;
     double line = 0.0;
 #pragma omp simd reduction(+ : line)
-    for (int i = 0; i < length; ++i) line += body(start + i);
+    for (int i = 0; i < length; ++i) line += of_row(start + i);
     return line;
   });
 }
@@ -174,10 +175,11 @@ inline double max_over(const Layout& l, const Range& r, double floor, Body&& bod
   const int length = r.upper[0] - r.lower[0];
   return of_all(l, of_process::max_rows(r, floor, [&](int j, int k) {
                   const std::ptrdiff_t start = l.index(r.lower[0], j, k);
+                  const auto of_row = body;
                   double line = floor, odd = 0.0;
 #pragma omp simd reduction(max : line) reduction(+ : odd)
                   for (int i = 0; i < length; ++i) {
-                    const double v = body(start + i);
+                    const double v = of_row(start + i);
                     line = v > line ? v : line;
                     odd += v == v ? 0.0 : 1.0;
                   }
@@ -215,7 +217,8 @@ inline auto sum_rows(const Layout& l, Body&& body) {
 template <typename Body>
 inline auto sum_rows(const Layout& l, const Range& r, Body&& body) {
   return of_all(l, of_process::sum_rows(r, [&](int j, int k) {
-                  return body(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
+                  const auto of_row = body;
+                  return of_row(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
                 }));
 }
 
