@@ -34,14 +34,24 @@ struct Along {
   double per_h;
 };
 
+// Those of component d: its own first.
+struct Directions {
+  Along own, first, second;
+};
+template <int dim>
+Directions directions_of(const Grid& grid, const FaceField& u, int d) {
+  const auto along = [&](int e) { return Along{u[e].data(), grid.stride(e), 1.0 / grid.h[e]}; };
+  return {along(d), along(d == 0 ? 1 : 0), dim == 3 ? along(d == 2 ? 1 : 2) : Along{}};
+}
+
 // The acceleration on a row of faces from `start` on, in one pass over the directions; along d itself, the
 // first of them, the differences are `along`, across it `across`. Returns the row's part of the sum that
 // convection.hpp speaks of. Every direction has its own names, and is passed by value: from an array, or from
 // what a body has captured, a loop that writes is not vectorised.
 template <int dim, typename DifferenceAlong, typename DifferenceAcross>
-double convect_row(const double* v, const double* m, Along own, Along first, Along second,
-                   std::ptrdiff_t start, int length, DifferenceAlong along, DifferenceAcross across,
-                   double* out) {
+double convect_row(const double* v, const double* m, Directions directions, std::ptrdiff_t start, int length,
+                   DifferenceAlong along, DifferenceAcross across, double* out) {
+  const auto [own, first, second] = directions;
   const double *w0 = own.carrier, *w1 = first.carrier, *w2 = second.carrier;
   const std::ptrdiff_t s = own.stride, s1 = first.stride, s2 = second.stride;
   const double per_h = own.per_h, per_h1 = first.per_h, per_h2 = second.per_h;
@@ -70,13 +80,11 @@ double convect_row(const double* v, const double* m, Along own, Along first, Alo
 template <int dim, typename DifferenceAlong, typename DifferenceAcross>
 double convect_range(const Field& mass, const Grid& grid, const FaceField& u, int d, const Range& faces,
                      DifferenceAlong along, DifferenceAcross across, Field& acceleration) {
-  const auto direction = [&](int e) { return Along{u[e].data(), grid.stride(e), 1.0 / grid.h[e]}; };
-  const Along own = direction(d), first = direction(d == 0 ? 1 : 0);
-  const Along second = dim == 3 ? direction(d == 2 ? 1 : 2) : Along{};
+  const Directions directions = directions_of<dim>(grid, u, d);
   const double *v = u[d].data(), *m = mass.data();
   double* out = acceleration.data();
   return of_process::sum_rows(faces, [=, &grid](int j, int k) {
-    return convect_row<dim>(v, m, own, first, second, grid.cells.index(faces.lower[0], j, k),
+    return convect_row<dim>(v, m, directions, grid.cells.index(faces.lower[0], j, k),
                             faces.upper[0] - faces.lower[0], along, across, out);
   });
 }
@@ -102,6 +110,25 @@ double convect(const Field& mass, const Grid& grid, const FaceField& u, int d, c
                        : convect<2>(mass, grid, u, d, faces, difference, acceleration);
 }
 
+template <int dim>
+void bound(const Grid& grid, const FaceField& u, int d, const Range& faces, double dt, const Field& fraction,
+           double least, Field& acceleration) {
+  const Directions along = directions_of<dim>(grid, u, d);
+  const double *f = fraction.data(), *w0 = along.own.carrier, *w1 = along.first.carrier,
+               *w2 = along.second.carrier;
+  const std::ptrdiff_t s = along.own.stride, s1 = along.first.stride, s2 = along.second.stride;
+  const double dt_h = dt * along.own.per_h, dt_h1 = dt * along.first.per_h, dt_h2 = dt * along.second.per_h;
+  double* a = acceleration.data();
+  for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
+    double courant = std::fabs(w0[c]) * dt_h;
+    courant += 0.25 * std::fabs(w1[c] + w1[c - s] + w1[c + s1] + w1[c + s1 - s]) * dt_h1;
+    if constexpr (dim == 3)
+      courant += 0.25 * std::fabs(w2[c] + w2[c - s] + w2[c + s2] + w2[c + s2 - s]) * dt_h2;
+    const double share = largest_courant / std::max(courant, largest_courant);
+    a[c] *= f[c] < least ? share : 1.0;
+  });
+}
+
 }  // namespace
 
 double convective_acceleration(const Field& mass, const Grid& grid, const FaceField& u, int d,
@@ -123,28 +150,10 @@ double convective_acceleration_limited_in(const Field& mass, double least, const
 
 void bound_convection(const Grid& grid, const FaceField& u, int d, const Range& faces, double dt,
                       const Field& fraction, double least, Field& acceleration) {
-  const double* f = fraction.data();
-  double* a = acceleration.data();
-  const std::ptrdiff_t sd = grid.stride(d);
-  const int dim = grid.dim;
-  std::array<const double*, 3> carrier{};
-  std::array<double, 3> per_h{};
-  for (int e = 0; e < dim; ++e) {
-    carrier[e] = u[e].data();
-    per_h[e] = dt / grid.h[e];
-  }
-  const std::array<std::ptrdiff_t, 3> stride = grid.cells.stride;
-  for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-    if (f[c] >= least) return;
-    double courant = std::fabs(carrier[d][c]) * per_h[d];
-    for (int e = 0; e < dim; ++e) {
-      if (e == d) continue;
-      const double* w = carrier[e];
-      const std::ptrdiff_t s = stride[e];
-      courant += 0.25 * std::fabs(w[c] + w[c - sd] + w[c + s] + w[c + s - sd]) * per_h[e];
-    }
-    a[c] *= largest_courant / std::max(courant, largest_courant);
-  });
+  if (grid.dim == 3)
+    bound<3>(grid, u, d, faces, dt, fraction, least, acceleration);
+  else
+    bound<2>(grid, u, d, faces, dt, fraction, least, acceleration);
 }
 
 }  // namespace granvof
