@@ -1,4 +1,5 @@
-// Kinetic theory of the grains: pressure (11), viscosities (20), (21), conductivity (22), dissipation (23).
+// Kinetic theory of the grains: pressure (11), viscosities (20), (21), dissipation (23). Conductivity (22) is
+// in kinetic_transport/.
 //
 // All take f_s in [0, f_s,max], Theta >= 0 [m2/s2], e in [0, 1], the caller's g0 (eq (19)), and SI units.
 #pragma once
@@ -19,9 +20,6 @@ inline double kinetic_viscosity(double f_s, double theta, double e, double g0, d
 }
 
 inline constexpr double bulk_to_shear_viscosity = 5.0 / 3.0;  // zeta_s^K / mu_s^K, eqs (20), (21)
-
-// kappa_s^K / mu_s^K, eqs (20), (22); the flux uses f_s kappa_s^K (model correction 11).
-inline constexpr double conductivity_to_viscosity = 5.0 / 2.0;
 
 // gamma_s^K / Theta^(3/2) [kg/m4] of eq (23), of grains that keep their distances.
 inline double collisional_dissipation_rate(double f_s, double e, double g0, double rho_s, double d_s) {

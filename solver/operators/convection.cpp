@@ -44,49 +44,40 @@ Directions directions_of(const Grid& grid, const FaceField& u, int d) {
   return {along(d), along(d == 0 ? 1 : 0), dim == 3 ? along(d == 2 ? 1 : 2) : Along{}};
 }
 
-// The acceleration on a row of faces from `start` on, in one pass over the directions; along d itself, the
-// first of them, the differences are `along`, across it `across`. Returns the row's part of the sum that
-// convection.hpp speaks of. Every direction has its own names, and is passed by value: from an array, or from
-// what a body has captured, a loop that writes is not vectorised.
+// The acceleration on the faces of a range, in one pass over the directions; along d itself, the first of
+// them, the differences are `along`, across it `across`. Returns the sum that convection.hpp speaks of. Every
+// direction has its own names: from an array of them a loop that writes is not vectorised.
 template <int dim, typename DifferenceAlong, typename DifferenceAcross>
-double convect_row(const double* v, const double* m, Directions directions, std::ptrdiff_t start, int length,
-                   DifferenceAlong along, DifferenceAcross across, double* out) {
-  const auto [own, first, second] = directions;
+double convect_in(const Field& mass, const Grid& grid, const FaceField& u, int d, const Range& faces,
+                  DifferenceAlong along, DifferenceAcross across, Field& acceleration) {
+  const auto [own, first, second] = directions_of<dim>(grid, u, d);
+  const double *v = u[d].data(), *m = mass.data();
   const double *w0 = own.carrier, *w1 = first.carrier, *w2 = second.carrier;
   const std::ptrdiff_t s = own.stride, s1 = first.stride, s2 = second.stride;
   const double per_h = own.per_h, per_h1 = first.per_h, per_h2 = second.per_h;
-  double taken = 0.0;
-#pragma omp simd reduction(+ : taken)
-  for (int i = 0; i < length; ++i) {
-    const std::ptrdiff_t c = start + i;
-    const double rate = w0[c] * per_h, by_own = along(v, c, s, rate);
-    // the other carriers, averaged to the face of d
-    const double rate1 = 0.25 * (w1[c] + w1[c - s] + w1[c + s1] + w1[c + s1 - s]) * per_h1;
-    const double by_first = across(v, c, s1, rate1);
-    double change = by_own + by_first;
-    double central = rate * (v[c + s] - v[c - s]) + rate1 * (v[c + s1] - v[c - s1]);
-    if constexpr (dim == 3) {
-      const double rate2 = 0.25 * (w2[c] + w2[c - s] + w2[c + s2] + w2[c + s2 - s]) * per_h2;
-      change += across(v, c, s2, rate2);
-      central += rate2 * (v[c + s2] - v[c - s2]);
-    }
-    out[c] = -change;
-    taken += m[c] * v[c] * (change - 0.5 * central);
-  }
-  return taken;
-}
-
-// The same on the faces of a range, of this process.
-template <int dim, typename DifferenceAlong, typename DifferenceAcross>
-double convect_range(const Field& mass, const Grid& grid, const FaceField& u, int d, const Range& faces,
-                     DifferenceAlong along, DifferenceAcross across, Field& acceleration) {
-  const Directions directions = directions_of<dim>(grid, u, d);
-  const double *v = u[d].data(), *m = mass.data();
   double* out = acceleration.data();
-  return of_process::sum_rows(faces, [=, &grid](int j, int k) {
-    return convect_row<dim>(v, m, directions, grid.cells.index(faces.lower[0], j, k),
-                            faces.upper[0] - faces.lower[0], along, across, out);
+  const Sums<1> sums = sum_rows(grid.cells, faces, [=](std::ptrdiff_t start, int n) {
+    double taken = 0.0;
+#pragma omp simd reduction(+ : taken)
+    for (int i = 0; i < n; ++i) {
+      const std::ptrdiff_t c = start + i;
+      const double rate = w0[c] * per_h, by_own = along(v, c, s, rate);
+      // the other carriers, averaged to the face of d
+      const double rate1 = 0.25 * (w1[c] + w1[c - s] + w1[c + s1] + w1[c + s1 - s]) * per_h1;
+      const double by_first = across(v, c, s1, rate1);
+      double change = by_own + by_first;
+      double central = rate * (v[c + s] - v[c - s]) + rate1 * (v[c + s1] - v[c - s1]);
+      if constexpr (dim == 3) {
+        const double rate2 = 0.25 * (w2[c] + w2[c - s] + w2[c + s2] + w2[c + s2 - s]) * per_h2;
+        change += across(v, c, s2, rate2);
+        central += rate2 * (v[c + s2] - v[c - s2]);
+      }
+      out[c] = -change;
+      taken += m[c] * v[c] * (change - 0.5 * central);
+    }
+    return Sums<1>{{taken}};
   });
+  return sums.values[0];
 }
 
 template <int dim, typename Difference>
@@ -96,11 +87,10 @@ double convect(const Field& mass, const Grid& grid, const FaceField& u, int d, c
   Range inside = common(faces, grid.inner_faces(d)), first = faces, last = faces;
   first.upper[d] = inside.lower[d];
   last.lower[d] = inside.upper[d];
-  const auto convect_in = [&](const Range& r, auto along) {
-    return convect_range<dim>(mass, grid, u, d, r, along, difference, acceleration);
+  const auto part = [&](const Range& r, auto along) {
+    return convect_in<dim>(mass, grid, u, d, r, along, difference, acceleration);
   };
-  return of_all(grid.cells, convect_in(inside, difference) + convect_in(first, upwind_difference) +
-                                convect_in(last, upwind_difference));
+  return part(inside, difference) + part(first, upwind_difference) + part(last, upwind_difference);
 }
 
 template <typename Difference>

@@ -1,10 +1,12 @@
 // What collisions hand over of momentum and heat: (20) and (22).
 #pragma once
 
-#include "solver/closures/kinetic_theory.hpp"
 #include "solver/model/choices.hpp"
 
 namespace granvof::closures {
+
+// kappa_s^K / mu_s^K of (20) and (22); the flux uses f_s kappa_s^K (model correction 11).
+inline constexpr double conductivity_to_viscosity = 5.0 / 2.0;
 
 struct TransportCollisional {
   static constexpr ClosureFacts facts{"collisional", "(20), (22)"};

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "solver/closures/kinetic_theory.hpp"
+#include "solver/closures/kinetic_transport/collisional.hpp"
 #include "solver/model/choices.hpp"
 
 namespace granvof::closures {

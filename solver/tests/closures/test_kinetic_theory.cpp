@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/kinetic_theory.hpp"
+#include "solver/closures/kinetic_transport/laws.hpp"
 
 namespace granvof::closures {
 namespace {
