@@ -43,7 +43,8 @@ inline auto sum_rows(const Range& r, Row&& row) {
   const int ny = r.upper[1] - r.lower[1], rows = ny * (r.upper[2] - r.lower[2]);
   std::array<Sum, sum_blocks> partial{};
   // A function of its own for one thread and for several: two copies of a loop may be rounded in two ways.
-  const auto add_up = [&](int block) __attribute__((noinline)) {
+  // With all that it calls: the row is vectorised as it stands in it.
+  const auto add_up = [&](int block) __attribute__((noinline, flatten)) {
     const auto begin = [=](int b) { return static_cast<int>(static_cast<long>(rows) * b / sum_blocks); };
     Sum sum{};
     for (int n = begin(block); n < begin(block + 1); ++n)
