@@ -14,8 +14,9 @@ void check_cut(const Scene& scene, int processes) {
     throw CaseError(fmt::format("{}: {}", scene.file.string(), what));
   };
   if (!scene.obstacles.empty())
-    refuse(fmt::format("obstacle: got {} and {} processes, allowed: one process where there are obstacles",
-                       scene.obstacles.size(), processes));
+    refuse(fmt::format(
+        "obstacle: got {} of them and {} processes, allowed: one process where there are obstacles",
+        scene.obstacles.size(), processes));
   for (int side = 0; side < 6; ++side)
     if (side != top && side_rule(scene, side).is_open())
       refuse(

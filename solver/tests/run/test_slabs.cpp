@@ -193,7 +193,7 @@ TEST(CutOfATank, IsRefusedWhereItCannotBe) {
   const std::vector<std::string> step{"obstacle.x0=[0.12]", "obstacle.x1=[0.14]", "obstacle.y0=[0]",
                                       "obstacle.y1=[0.02]"};
   EXPECT_NO_THROW(check_cut(test::column_scene(step), 1));
-  expect_refused(step, 2, "obstacle: got 1 and 2 processes, allowed: one process");
+  expect_refused(step, 2, "obstacle: got 1 of them and 2 processes, allowed: one process");
   expect_refused({"gate=false", "walls.top=slip", "walls.left.inflow=0.1", "walls.right.outflow_pressure=0",
                   "walls.right.outflow_level=0.06"},
                  2, "walls: got an inlet or an outlet and 2 processes, allowed: one process");
