@@ -30,6 +30,7 @@ ABOUT = {
     "solver/closures/kinetic_transport": "what flying grains carry, a list",
     "solver/operators": "one term, one file",
     "solver/output": "run directory, scalars",
+    "solver/parallel": "processes of mpirun",
     "solver/run": "time step, monitors, energy",
     "solver/program": "granvof",
     "compare/input": "runs, records, series",

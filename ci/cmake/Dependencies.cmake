@@ -8,5 +8,6 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(MPI QUIET COMPONENTS C)  # optional: without it granvof runs as one process
 find_package(GTest REQUIRED)
 include(GoogleTest)

@@ -34,8 +34,8 @@ void Boundary::set_beyond(Field& f, int d, bool upper, Value&& value) const {
   for (at[g] = -l.ghost[g]; at[g] < l.n[g] + l.ghost[g]; ++at[g])
     for (at[e] = -l.ghost[e]; at[e] < l.n[e] + l.ghost[e]; ++at[e]) {
       Vec3 place{};
-      for (int c = 0; c < 3; ++c) place[c] = (at[c] + 0.5) * grid_.h[c];
-      place[d] = upper ? l.n[d] * grid_.h[d] : 0.0;
+      for (int c = 0; c < 3; ++c) place[c] = (l.first[c] + at[c] + 0.5) * grid_.h[c];
+      place[d] = upper ? l.whole[d] * grid_.h[d] : 0.0;
       f[l.index(at)] = value(place);
     }
 }
@@ -46,13 +46,14 @@ void Boundary::fill_cells(Field& f, Rule&& rule) const {
   const Layout& l = grid_.cells;
   exchange(f);
   for (int d = 0; d < grid_.dim; ++d) {
-    if (l.periodic[d]) continue;
     const std::ptrdiff_t s = l.stride[d], last = (l.n[d] - 1) * s;
     const SideRule &lower = side(d, false), &upper = side(d, true);
+    const bool below = !lower.joined, above = !upper.joined;
+    if (!below && !above) continue;
     for_side(l, d, [&](std::ptrdiff_t line) {
       for (int g = 1; g <= l.ghost[d]; ++g) {
-        f[line - g * s] = rule(lower, f[line], line - s);
-        f[line + last + g * s] = rule(upper, f[line + last], line + last + s);
+        if (below) f[line - g * s] = rule(lower, f[line], line - s);
+        if (above) f[line + last + g * s] = rule(upper, f[line + last], line + last + s);
       }
     });
   }
@@ -115,6 +116,7 @@ void Boundary::fill_sides(FaceField& u, int d, Phase phase) const {
   const std::ptrdiff_t s = l.stride[d];
   for (const bool upper : {false, true}) {
     const SideRule& rule = side(d, upper);
+    if (rule.joined) continue;
     const std::ptrdiff_t face = upper ? l.n[d] * s : 0, inward = upper ? -s : s;
     const double outward = upper ? 1.0 : -1.0;
     if (phase == Phase::solid && rule.passes_grains) {
@@ -154,19 +156,14 @@ void Boundary::fill_beyond(FaceField& u, int d, bool upper, Phase phase) const {
 }
 
 void Boundary::fill_velocity(FaceField& u, Phase phase) const {
-  const Layout& l = grid_.cells;
   for (int c = 0; c < grid_.dim; ++c) exchange(u[c]);
   // The faces on all sides first, then the ghosts: the rows of ghosts along a side then follow the side that
   // they lie beyond, whichever direction comes first. Upper ghosts before lower ones: with one cell between
   // the sides these mirror those.
-  const auto for_each_direction = [&](auto&& fill) {
-    for (int d = 0; d < grid_.dim; ++d)
-      if (!l.periodic[d]) fill(d);
-  };
-  for_each_direction([&](int d) { fill_sides(u, d, phase); });
-  for_each_direction([&](int d) {
-    for (const bool upper : {true, false}) fill_beyond(u, d, upper, phase);
-  });
+  for (int d = 0; d < grid_.dim; ++d) fill_sides(u, d, phase);
+  for (int d = 0; d < grid_.dim; ++d)
+    for (const bool upper : {true, false})
+      if (!side(d, upper).joined) fill_beyond(u, d, upper, phase);
 }
 
 }  // namespace granvof

@@ -1,5 +1,7 @@
 #include "solver/grid/grid.hpp"
 
+#include "solver/grid/slabs.hpp"
+
 namespace granvof {
 
 namespace {
@@ -14,7 +16,8 @@ Layout layout_of(const Scene& scene, const Communicator* communicator) {
   if (scene.dimensions == 2) n[2] = 1;
   Layout cells = Layout::make(n, ghost, periodic);
   cells.communicator = communicator;
-  return cells;
+  if (communicator == nullptr || communicator->size() == 1) return cells;
+  return slab_of(cells, scene.dimensions, communicator->size(), communicator->rank());
 }
 
 }  // namespace
@@ -24,28 +27,34 @@ Grid::Grid(const Scene& scene, const Communicator* communicator)
       cells(layout_of(scene, communicator)),
       h(scene.grid.spacing),
       obstacles(cells, dim, h, scene.obstacles) {
-  for (int side = 0; side < 6; ++side) sides[side] = side_rule(scene, side);
+  for (int side = 0; side < 6; ++side) {
+    tank_sides[side] = side_rule(scene, side);
+    const bool seam = side < 2 * dim && cells.seam(side / 2, side % 2 == 1);
+    sides[side] = seam ? periodic_rule() : tank_sides[side];
+  }
   if (dim == 2) h[2] = scene.tank[2];
   cell_volume = h[0] * h[1] * h[2];
 }
 
 bool Grid::has_whole_columns() const {
   bool only_the_top = obstacles.none();
-  for_each_open_side([&](int d, bool upper) { only_the_top = only_the_top && d == 1 && upper; });
+  for (int d = 0; d < dim; ++d)
+    for (const bool upper : {false, true})
+      if (tank_side(d, upper).is_open()) only_the_top = only_the_top && d == vertical && upper;
   return only_the_top;
 }
 
 bool Grid::has_bumps() const {
   for (int d = 0; d < dim; ++d)
     for (const bool upper : {false, true})
-      if (side(d, upper).bumps) return true;
+      if (tank_side(d, upper).bumps) return true;
   return false;
 }
 
 bool Grid::sealed() const {
   for (int d = 0; d < dim; ++d)
     for (const bool upper : {false, true})
-      if (side(d, upper).passes_fluid) return false;
+      if (tank_side(d, upper).passes_fluid) return false;
   return true;
 }
 
@@ -60,7 +69,7 @@ Range Grid::cells_and_ghosts(int layers) const {
 
 Range Grid::inner_faces(int d) const {
   Range r = all_cells();
-  if (!cells.periodic[d]) r.lower[d] = 1;
+  if (!cells.seam(d, false)) r.lower[d] = 1;
   return r;
 }
 
@@ -100,7 +109,8 @@ Range Grid::all_faces(int d) const {
 
 Layout Grid::face_layout(int d) const {
   Layout l = cells;
-  if (!l.periodic[d]) l.n[d] += 1;
+  if (!l.seam(d, true)) l.n[d] += 1;
+  if (!l.periodic[d]) l.whole[d] += 1;
   return l;
 }
 

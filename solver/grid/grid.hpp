@@ -22,10 +22,12 @@ struct Grid {
   Layout cells;                   // layout shared by cell and face fields
   Vec3 h{};                       // spacing [m]
   double cell_volume = 0.0;       // [m3]; in 2D times the tank's depth
-  std::array<SideRule, 6> sides;  // indexed by SideIndex
+  std::array<SideRule, 6> sides;  // of this box, indexed by SideIndex; a seam is joined to what is beyond
+  std::array<SideRule, 6> tank_sides;  // of the whole tank
   Obstacles obstacles;
 
-  // `communicator` to those who hold the rest of the tank must outlive this; none: it is whole.
+  // `communicator` to those who hold the rest of the tank must outlive this; none: it is whole. A tank that
+  // is cut among processes has no obstacles, and may_be_cut() says whether that many can share it.
   explicit Grid(const Scene& scene, const Communicator* communicator = nullptr);
 
   // Every column of cells is open from the floor to the top, and nothing flows through other sides than that.
@@ -36,9 +38,10 @@ struct Grid {
   // Cells and `layers` ghosts in every computed direction.
   Range cells_and_ghosts(int layers) const;
   const SideRule& side(int d, bool upper) const { return sides[2 * d + (upper ? 1 : 0)]; }
-  // Grains meet bumps on a side.
+  const SideRule& tank_side(int d, bool upper) const { return tank_sides[2 * d + (upper ? 1 : 0)]; }
+  // Grains meet bumps on a side of the tank.
   bool has_bumps() const;
-  // No side passes the fluid: its volume has nowhere to go, and P_c no level of its own.
+  // No side of the tank passes the fluid: its volume has nowhere to go, and P_c no level of its own.
   bool sealed() const;
 
   // Faces of direction d that are on no side: where the solid velocity is unknown.

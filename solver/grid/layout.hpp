@@ -1,6 +1,11 @@
 // How a local box of values lies in memory: x fastest, with ghost layers around it.
 //
 // Grid cells, faces and the levels of multigrid all use this, so that one exchange serves them all.
+//
+// A box may be cut into slabs, one a process. A slab knows where it begins in the whole box; an end that is
+// none of the whole box is a seam, and so is a periodic end: what lies beyond comes by exchange(). The values
+// on a seam itself, such as faces, are those of the process above it; the process below has a copy in its
+// ghosts, as it has of a periodic end's.
 #pragma once
 
 #include <array>
@@ -13,16 +18,18 @@ class Communicator;
 struct Layout {
   std::array<int, 3> n{1, 1, 1};                      // values of the box, ghosts not counted
   std::array<int, 3> ghost{0, 0, 0};                  // ghost layers on each side of a direction
-  std::array<bool, 3> periodic{false, false, false};  // direction joined to itself
+  std::array<bool, 3> periodic{false, false, false};  // direction joined to itself, of the whole box
   std::array<std::ptrdiff_t, 3> stride{1, 1, 1};      // distance of neighbours in memory
   std::ptrdiff_t origin = 0;                          // index of (0, 0, 0)
   std::size_t size = 1;                               // allocated values, ghosts counted
+  std::array<int, 3> first{0, 0, 0};                  // place of (0, 0, 0) in the whole box
+  std::array<int, 3> whole{1, 1, 1};                  // values of the whole box
   const Communicator* communicator = nullptr;  // to those who hold the rest of the box; none: it is whole
 
   // A compact layout: `ghost` layers in every direction with more than one value or with periodic ends.
   static Layout make(std::array<int, 3> n, std::array<int, 3> ghost, std::array<bool, 3> periodic) {
     Layout l;
-    l.n = n;
+    l.n = l.whole = n;
     l.ghost = ghost;
     l.periodic = periodic;
     std::ptrdiff_t s = 1;
@@ -34,6 +41,13 @@ struct Layout {
     l.size = static_cast<std::size_t>(s);
     return l;
   }
+
+  bool is_split(int d) const { return n[d] < whole[d]; }
+  // What lies beyond an end comes by exchange(), no side of the whole box is there.
+  bool seam(int d, bool upper) const {
+    return periodic[d] || (upper ? first[d] + n[d] < whole[d] : first[d] > 0);
+  }
+  bool any_seam(int d) const { return seam(d, false) || seam(d, true); }
 
   std::ptrdiff_t index(int i, int j, int k) const {
     return origin + i * stride[0] + j * stride[1] + k * stride[2];

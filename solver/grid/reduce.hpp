@@ -197,7 +197,7 @@ inline double sum_of(const Layout& l, const Items& items, Body&& body) {
   return of_all(l, total);
 }
 
-// Sum of (place along d + 1/2) body(index): the first moment about the lower side, in cells.
+// Sum of (place along d + 1/2) body(index): the first moment about the lower side of the whole, in cells.
 template <typename Body>
 inline double moment_over(const Layout& l, const Range& r, int d, Body&& body) {
   double moment = 0.0;
@@ -205,7 +205,7 @@ inline double moment_over(const Layout& l, const Range& r, int d, Body&& body) {
   for (int at = r.lower[d]; at < r.upper[d]; ++at) {
     layer.lower[d] = at;
     layer.upper[d] = at + 1;
-    moment += (at + 0.5) * of_process::sum_over(l, layer, body);
+    moment += (l.first[d] + at + 0.5) * of_process::sum_over(l, layer, body);
   }
   return of_all(l, moment);
 }
@@ -258,7 +258,8 @@ inline double max_rows(const std::vector<Layout>& boxes, Body&& body) {
 }
 
 // Least range that holds, of every row along x of the box, the places that body(j, k), a Piece, names; empty
-// (upper <= lower) where there are none. A piece may reach beyond its row.
+// (upper <= lower) where there are none. A piece may reach beyond its row. Along the cut of a box that is cut
+// among processes the range tells only whether it is empty: places are those of each process's own slab.
 template <typename Body>
 inline Range bounds_of_rows(const Layout& l, Body&& body) {
   Range bounds = of_process::bounds_of_rows(Range::all(l), body);

@@ -102,7 +102,7 @@ void CoupledSolver::precondition(const Pair& from, FloatPair& to) {
   exchange(layout_, y1);
   const rows::Stencil k21{k21_[0].data(), k21_[1].data(), k21_[2].data(), layout_.stride[1],
                           layout_.stride[2]};
-  const int length = layout_.periodic[0] ? n : width;  // periodic ghosts of the faces are not 0
+  const int length = layout_.any_seam(0) ? n : width;  // ghosts of the faces beyond a seam are not 0
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
     for_each_row(layout_, [&](int j, int k) {
       const std::ptrdiff_t row = layout_.index(0, j, k);

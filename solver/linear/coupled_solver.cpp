@@ -47,7 +47,7 @@ CoupledSolver::CoupledSolver(const Layout& layout, const std::array<double, 3>& 
 }
 
 Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2, const Tolerance& tolerance) {
-  for (int d = 0; d < 3; ++d) coupled_[d] = system.k11[d] != nullptr && user_.n[d] > 1;
+  for (int d = 0; d < 3; ++d) coupled_[d] = system.k11[d] != nullptr && user_.whole[d] > 1;
   const Norms initial = true_residual(system, x1, x2);
   Report report;
   report.initial = report.final = initial.larger();
@@ -165,7 +165,8 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
       return largest(n, r);
     });
     // t is reused as a product later: nothing but the box may stay in it
-    if (any_periodic(layout_)) std::fill_n(t_[c].data(), layout_.size, 0.0);
+    if (layout_.any_seam(0) || layout_.any_seam(1) || layout_.any_seam(2))
+      std::fill_n(t_[c].data(), layout_.size, 0.0);
   }
   return norms;
 }

@@ -70,7 +70,7 @@ class CoupledSolver {
   std::array<bool, 3> coupled_{};
   Buffer<double> zeros_;
   Buffer<float> theta_;
-  std::array<Buffer<float>, 3> k21_;  // periodic ghosts filled
+  std::array<Buffer<float>, 3> k21_;  // ghosts beyond seams filled
   Pair r_, shadow_, p_, v_, t_;
   FloatPair y_, w_;  // preconditioned p and r
 };

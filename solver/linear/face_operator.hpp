@@ -22,12 +22,12 @@ inline FaceRow face_row(const std::array<const double*, 3>& lower, const Layout&
   FaceRow row;
   const std::ptrdiff_t start = l.index(0, j, k);
   const auto upper = [&](int d, int position) {
-    if (position + 1 < l.n[d]) return lower[d] + start + l.stride[d];
+    if (position + 1 < l.n[d] || (l.is_split(d) && l.seam(d, true))) return lower[d] + start + l.stride[d];
     return l.periodic[d] ? lower[d] + start - position * l.stride[d] : zeros;
   };
   if (lower[0]) {
     row.x = lower[0] + start;
-    row.x_end = l.periodic[0] ? row.x[0] : 0.0;
+    row.x_end = !l.seam(0, true) ? 0.0 : row.x[l.is_split(0) ? l.n[0] : 0];
   }
   if (lower[1]) {
     row.y = lower[1] + start;

@@ -32,7 +32,7 @@ Multigrid::Multigrid(const Layout& layout, const std::array<double, 3>& spacing)
     sweeps_[k] = {static_cast<float>(next * rho), static_cast<float>(2.0 * next / half)};
     rho = next;
   }
-  build({layout.n[0] > 1, layout.n[1] > 1, layout.n[2] > 1});
+  build({layout.whole[0] > 1, layout.whole[1] > 1, layout.whole[2] > 1});
 }
 
 void Multigrid::smooth(const Level& l, const float* x, const float* old, float old_factor, float* out,
@@ -59,8 +59,8 @@ double Multigrid::smooth_and_dot(const Level& l, const float* x, const float* ol
   const float keep = 1.0F + s.momentum - s.step;
   const rows::Stencil faces = stencil(l.face, l.layout);
   const float* rhs = l.rhs.data();
-  // A periodic rhs is not 0 in its ghosts, so the product must end with the box.
-  const int width = l.layout.periodic[0] ? l.layout.n[0] : padded(l.layout.n[0]);
+  // Beyond a seam rhs is not 0, so the product must end with the box.
+  const int width = l.layout.any_seam(0) ? l.layout.n[0] : padded(l.layout.n[0]);
   const double dot = with_directions(l.coupled, [&]<bool X, bool Y, bool Z>() {
     return sum_rows(l.layout, [&](int j, int k) {
       const std::ptrdiff_t row = l.layout.index(0, j, k);
@@ -128,8 +128,24 @@ void Multigrid::inject(const Level& f, const Level& c, const float* e, float* x)
   exchange(f.layout, x);
 }
 
+// One's own part of what all processes make of the whole level.
+float* Multigrid::descend_gathered(Level& l, std::size_t depth, int smoothing, double* dot) {
+  Level& whole = levels_[depth + 1];
+  l.gathered->collect(l.rhs.data(), whole.rhs.data(), true);
+  exchange(whole.layout, whole.rhs.data());
+  float* x = l.x[0].data();
+  l.gathered->take(descend(depth + 1, smoothing, nullptr), x);
+  exchange(l.layout, x);
+  if (dot)
+    *dot = sum_over(l.layout, Range::all(l.layout), [x, r = l.rhs.data()](std::ptrdiff_t i) {
+      return static_cast<double>(x[i]) * static_cast<double>(r[i]);
+    });
+  return x;
+}
+
 float* Multigrid::descend(std::size_t depth, int smoothing, double* dot) {
   Level& l = levels_[depth];
+  if (l.gathered) return descend_gathered(l, depth, smoothing, dot);
   float* rhs = l.rhs.data();
   if (depth + 1 == levels_.size()) return rhs;  // the diagonal is all that is left, and it is 1
   float* x = l.x[0].data();

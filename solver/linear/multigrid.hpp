@@ -8,13 +8,19 @@
 // Every level is stored scaled by its diagonal D, as D^-1/2 A D^-1/2: a sweep then reads neither diagonal nor
 // mass, only the scaled faces. Smoother: Chebyshev-Jacobi on the eigenvalues [0.5, 2] of D^-1 A, which suits
 // any such operator (its largest eigenvalue is at most 2).
+//
+// Of a box that is cut among processes the levels are cut alike while they have many cells and no pair lies
+// across a seam. The first that is not so is gathered: from there on every process has the whole level and
+// does the same with it. Every value is to the bit what one process would make of the whole box.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "solver/grid/layout.hpp"
 #include "solver/grid/memory.hpp"
+#include "solver/grid/whole_box.hpp"
 #include "solver/linear/faces.hpp"
 #include "solver/linear/padded_layout.hpp"
 
@@ -68,14 +74,18 @@ class Multigrid {
     Buffer<float> weight;             // of injection and sum: root / root of the coarse cell
     Buffer<float> rhs;
     std::array<Buffer<float>, 2> x;
+    std::optional<WholeBox> gathered;  // the next level is this one, whole in every process
   };
   struct Sweep {  // x_new = x + momentum (x - x_old) + step (rhs - A x)
     float momentum = 0.0F, step = 0.0F;
   };
 
   void build(const std::array<bool, 3>& coupled);
+  bool stays_cut(const Layout& layout, const std::array<bool, 3>& coarsened) const;
+  float* descend_gathered(Level& level, std::size_t depth, int smoothing, double* dot);
   void scale_level(Level& level);
   void coarsen(const Level& fine, Level& coarse) const;
+  void gather_coefficients(const Level& cut, Level& whole) const;
   void weigh(Level& fine, const Level& coarse) const;
   float* descend(std::size_t depth, int smoothing, double* dot);
   void smooth(const Level& l, const float* x, const float* old, float old_factor, float* out, Sweep s) const;

@@ -10,6 +10,9 @@
 namespace granvof::linear {
 namespace {
 
+// Of a box that is cut among processes: below it a sweep takes less time than its messages.
+constexpr double least_cells_of_a_cut_level = 4096.0;
+
 // Faces and masses of the caller's arrays.
 class GivenCoefficients final : public Coefficients {
  public:
@@ -34,30 +37,50 @@ class GivenCoefficients final : public Coefficients {
 
 }  // namespace
 
+// No pair of cells lies across a seam, and there is enough to do on every slab.
+bool Multigrid::stays_cut(const Layout& l, const std::array<bool, 3>& coarsened) const {
+  bool pairs = true;
+  for (int d = 0; d < 3; ++d)
+    if (l.is_split(d) && coarsened[d]) pairs = pairs && l.first[d] % 2 == 0;
+  const double cells = static_cast<double>(l.whole[0]) * l.whole[1] * l.whole[2];
+  return everywhere(l, pairs) && cells >= least_cells_of_a_cut_level;
+}
+
 void Multigrid::build(const std::array<bool, 3>& coupled) {
   levels_.clear();
-  std::array<int, 3> n = user_.n;
+  Layout at = user_;
   std::array<double, 3> spacing = spacing_;
   for (;;) {
     Level l;
     double shortest = 0.0;
     bool last = true;
     for (int d = 0; d < 3; ++d) {
-      l.coupled[d] = coupled[d] && n[d] > 1;
+      l.coupled[d] = coupled[d] && at.whole[d] > 1;
       if (l.coupled[d] && (last || spacing[d] < shortest)) shortest = spacing[d];
       last = last && !l.coupled[d];
     }
     // Ghosts do not depend on what is coupled, so that the layout never changes.
-    l.layout = padded_layout(n, user_);
+    l.layout = padded_layout(at);
     const std::size_t size = l.layout.size;
     for (int d = 0; d < 3; ++d)
       if (l.coupled[d]) l.face[d] = Buffer<float>(size);
     for (auto* b : {&l.mass, &l.scale, &l.root, &l.weight, &l.rhs}) *b = Buffer<float>(size);
     for (auto& x : l.x) x = Buffer<float>(size);
+    for (int d = 0; d < 3; ++d) l.coarsened[d] = l.coupled[d] && spacing[d] < 1.99 * shortest;
+    const bool cut = at.is_split(0) || at.is_split(1) || at.is_split(2);
+    if (cut && !stays_cut(at, l.coarsened)) {
+      at.n = at.whole;
+      at.first = {0, 0, 0};
+      at.communicator = nullptr;
+      l.gathered.emplace(l.layout, padded_layout(at), WholeBox::Values::box);
+      levels_.push_back(std::move(l));
+      continue;
+    }
     for (int d = 0; d < 3; ++d) {
-      l.coarsened[d] = l.coupled[d] && spacing[d] < 1.99 * shortest;
       if (!l.coarsened[d]) continue;
-      n[d] = (n[d] + 1) / 2;
+      at.n[d] = (at.n[d] + 1) / 2;
+      at.first[d] = (at.first[d] + 1) / 2;
+      at.whole[d] = (at.whole[d] + 1) / 2;
       spacing[d] *= 2.0;
     }
     levels_.push_back(std::move(l));
@@ -71,7 +94,7 @@ void Multigrid::set(const Faces& faces, const double* mass) {
 
 void Multigrid::set(const Coefficients& coefficients) {
   std::array<bool, 3> coupled{};
-  for (int d = 0; d < 3; ++d) coupled[d] = coefficients.coupled(d) && user_.n[d] > 1;
+  for (int d = 0; d < 3; ++d) coupled[d] = coefficients.coupled(d) && user_.whole[d] > 1;
   if (coupled != levels_.front().coupled) build(coupled);
 
   Level& finest = levels_.front();
@@ -83,17 +106,26 @@ void Multigrid::set(const Coefficients& coefficients) {
       if (!finest.coupled[d]) continue;
       float* face = finest.face[d].data() + row;
       coefficients.faces(d, j, k, face);
-      if (!finest.layout.periodic[d] && position[d] == 0) std::fill_n(face, d == 0 ? 1 : user_.n[0], 0.0F);
+      if (!finest.layout.seam(d, false) && position[d] == 0) std::fill_n(face, d == 0 ? 1 : user_.n[0], 0.0F);
     }
   });
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     Level& l = levels_[i];
     for (int d = 0; d < 3; ++d)
       if (l.coupled[d]) exchange(l.layout, l.face[d].data());
-    if (i + 1 < levels_.size()) coarsen(l, levels_[i + 1]);
+    if (l.gathered)
+      gather_coefficients(l, levels_[i + 1]);
+    else if (i + 1 < levels_.size())
+      coarsen(l, levels_[i + 1]);
     scale_level(l);
-    if (i > 0) weigh(levels_[i - 1], l);
+    if (i > 0 && !levels_[i - 1].gathered) weigh(levels_[i - 1], l);
   }
+}
+
+void Multigrid::gather_coefficients(const Level& cut, Level& whole) const {
+  cut.gathered->collect(cut.mass.data(), whole.mass.data(), true);
+  for (int d = 0; d < 3; ++d)
+    if (cut.coupled[d]) cut.gathered->collect(cut.face[d].data(), whole.face[d].data(), true);
 }
 
 // Sums of the fine masses, and of the fine faces over the growth of the distance between cells.
@@ -106,9 +138,9 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) const {
   // cell).
   const auto distance = [&](int d, int i) {
     if (ratio[d] == 1) return 1.0F;
-    const int lower = i == 0 ? lc.n[d] - 1 : i - 1;
-    const auto width = [&](int c) { return std::min(2, lf.n[d] - 2 * c); };
-    return 0.5F * static_cast<float>(width(i) + width(lower));
+    const int here = lc.first[d] + i, lower = here == 0 ? lc.whole[d] - 1 : here - 1;
+    const auto width = [&](int c) { return std::min(2, lf.whole[d] - 2 * c); };
+    return 0.5F * static_cast<float>(width(here) + width(lower));
   };
   for_each_row(lc, [&](int j, int k) {
     const std::ptrdiff_t out = lc.index(0, j, k);
@@ -138,7 +170,8 @@ void Multigrid::coarsen(const Level& fine, Level& coarse) const {
       float* face = coarse.face[0].data() + out;
       const auto regular = static_cast<float>(ratio[0]);
       gather(fine.face[0].data(), face, rows_y, rows_z, true, 1.0F / regular);
-      for (const int end : {0, lc.n[0] - 1}) face[end] *= regular / distance(0, end);
+      face[0] *= regular / distance(0, 0);
+      if (lc.n[0] > 1) face[lc.n[0] - 1] *= regular / distance(0, lc.n[0] - 1);
     }
     if (coarse.coupled[1])
       gather(fine.face[1].data(), coarse.face[1].data() + out, 1, rows_z, false, 1.0F / distance(1, j));

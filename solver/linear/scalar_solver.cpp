@@ -32,7 +32,7 @@ ScalarSolver::ScalarSolver(const Layout& layout, const std::array<double, 3>& sp
 
 Report ScalarSolver::solve(const Faces& faces, const double* mass, const double* rhs, double* x,
                            const Tolerance& tolerance) {
-  for (int d = 0; d < 3; ++d) coupled_[d] = faces.lower[d] != nullptr && user_.n[d] > 1;
+  for (int d = 0; d < 3; ++d) coupled_[d] = faces.lower[d] != nullptr && user_.whole[d] > 1;
   Report report;
   report.initial = report.final = true_residual(faces, mass, rhs, x);
   if (!std::isfinite(report.initial)) return report;

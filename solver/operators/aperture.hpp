@@ -22,7 +22,7 @@ class Aperture {
  private:
   const Grid& grid_;
   std::optional<Gate> gate_;
-  int gate_face_ = 0;   // index in x of the faces the gate blocks
+  int gate_face_ = 0;   // index in x of the faces the gate blocks, in the whole tank
   int open_rows_ = -1;  // rows of cells already free
   FaceField open_;
 };

@@ -27,7 +27,7 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia) {
   Range box{{0, 0, 0}, {0, 0, 0}};
   if (is_empty(grains)) return box;
   for (int d = 0; d < 3; ++d) {
-    const bool whole = d >= grid.dim || l.periodic[d];
+    const bool whole = d >= grid.dim || l.periodic[d] || l.is_split(d);
     box.lower[d] = whole ? 0 : std::max(grains.lower[d] - 1, 0) / block * block;
     box.upper[d] = whole ? l.n[d] : std::min((grains.upper[d] + 1 + block - 1) / block * block, l.n[d]);
   }
@@ -37,13 +37,17 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia) {
 Layout cells_of(const Grid& grid, const Range& box) {
   Layout l = grid.cells;
   l.origin = l.index(box.lower[0], box.lower[1], box.lower[2]);
-  for (int d = 0; d < 3; ++d) l.n[d] = box.upper[d] - box.lower[d];
+  for (int d = 0; d < 3; ++d) {
+    if (l.is_split(d)) continue;
+    l.n[d] = l.whole[d] = box.upper[d] - box.lower[d];
+  }
   return l;
 }
 
 Layout faces_of(const Grid& grid, const Range& box, int d) {
   Layout l = cells_of(grid, box);
-  if (!l.periodic[d]) l.n[d] += 1;
+  if (!l.seam(d, true)) l.n[d] += 1;
+  if (!l.periodic[d]) l.whole[d] += 1;
   return l;
 }
 

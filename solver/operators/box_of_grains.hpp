@@ -6,7 +6,8 @@
 namespace granvof {
 
 // Cells around every face with f_s >= least_solid_fraction and one more row on each side, in whole pairs of
-// cells (a multigrid built for it then serves several steps), the whole length of periodic directions. Empty
+// cells (a multigrid built for it then serves several steps), the whole length of directions that are
+// periodic or cut among processes. Empty
 // (upper = lower) without grains. inertia.f_s must reach one ghost layer.
 Range box_of_grains(const Grid& grid, const FaceInertia& inertia);
 

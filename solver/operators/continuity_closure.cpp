@@ -34,18 +34,21 @@ std::vector<double> flux_of_gains(const std::vector<double>& gain, const std::ve
 class Closure {
  public:
   Closure(const Grid& grid, const FaceField& flux_s, FaceField& flux_c)
-      : grid_(grid), n_(grid.cells.n), flux_c_(flux_c), gain_(grid) {
+      : grid_(grid), n_(grid.cells.whole), flux_c_(flux_c), gain_(grid) {
     subtract_divergence(grid, 1.0, flux_s, gain_);
     subtract_divergence(grid, 1.0, flux_c, gain_);
   }
 
-  // Leaves every column without gain in the sum over its cells.
+  // Leaves every column without gain in the sum over its cells. Every process does it for all columns of the
+  // tank, and changes what it has of them.
   void even_out_columns(const Aperture& aperture) {
     count_open_rows(aperture);
     columns_.assign(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[2]), 0.0);
-    for (int k = 0; k < n_[2]; ++k)
-      for (int j = 0; j < n_[vertical]; ++j)
-        for (int i = 0; i < n_[0]; ++i) column(i, k) += gain_[grid_.cells.index(i, j, k)];
+    const Layout& l = grid_.cells;
+    for (int k = 0; k < l.n[2]; ++k)
+      for (int j = 0; j < l.n[vertical]; ++j)
+        for (int i = 0; i < l.n[0]; ++i) column(l.first[0] + i, l.first[2] + k) += gain_[l.index(i, j, k)];
+    if (l.communicator != nullptr && l.communicator->size() > 1) l.communicator->sum(columns_);
     if (grid_.dim == 3) even_out_along_z();
     even_out_along_x();
   }
@@ -69,29 +72,39 @@ class Closure {
 
  private:
   double& column(int i, int k) { return columns_[static_cast<std::size_t>(i + k * n_[0])]; }
-  int& open_rows(int i) { return open_rows_[static_cast<std::size_t>(i)]; }
+  double& open_rows(int i) { return open_rows_[static_cast<std::size_t>(i)]; }
 
   // A gate rises from the floor: the rows below its edge are open.
   void count_open_rows(const Aperture& aperture) {
-    open_rows_.assign(static_cast<std::size_t>(n_[0]), 0);
-    for (int i = grid_.cells.periodic[0] ? 0 : 1; i < n_[0]; ++i)
-      for (int j = 0; j < n_[vertical]; ++j)
-        open_rows(i) += aperture[0][grid_.cells.index(i, j, 0)] > 0.0 ? 1 : 0;
+    open_rows_.assign(static_cast<std::size_t>(n_[0]), 0.0);
+    const Layout& l = grid_.cells;
+    for (int i = l.seam(0, false) ? 0 : 1; i < l.n[0]; ++i)
+      for (int j = 0; j < l.n[vertical]; ++j)
+        open_rows(l.first[0] + i) += aperture[0][l.index(i, j, 0)] > 0.0 ? 1.0 : 0.0;
+    if (l.is_split(0)) l.communicator->sum(open_rows_);
+  }
+
+  // Index of the lowest cell of a column of the tank, -1 where another process has it.
+  std::ptrdiff_t foot(int i, int k) const {
+    const Layout& l = grid_.cells;
+    const int x = i - l.first[0], z = k - l.first[2];
+    return x < 0 || x >= l.n[0] || z < 0 || z >= l.n[2] ? -1 : l.index(x, 0, z);
   }
 
   // Lets `flux` (of the gain of a whole column) pass from the neighbour below in direction d into column (i,
   // k), in equal parts through the lowest `rows` faces.
-  void pass(int d, int i, int k, int rows, double flux) {
+  void pass(int d, int i, int k, double rows, double flux) {
     std::array<int, 3> below{i, 0, k};
     below[d] = (below[d] + n_[d] - 1) % n_[d];
-    const std::ptrdiff_t to = grid_.cells.index(i, 0, k),
-                         from = grid_.cells.index(below[0], below[1], below[2]);
+    const std::ptrdiff_t to = foot(i, k), from = foot(below[0], below[2]);
     const double part = flux / rows;
     for (int j = 0; j < rows; ++j) {
       const std::ptrdiff_t at = j * grid_.stride(vertical);
-      flux_c_[d][to + at] += grid_.h[d] * part;
-      gain_[to + at] += part;
-      gain_[from + at] -= part;
+      if (to >= 0) {
+        flux_c_[d][to + at] += grid_.h[d] * part;
+        gain_[to + at] += part;
+      }
+      if (from >= 0) gain_[from + at] -= part;
     }
     column(i, k) += flux;
     column(below[0], below[2]) -= flux;
@@ -101,7 +114,7 @@ class Closure {
   std::vector<int> parts() {
     std::vector<int> begins{0};
     for (int i = 1; i < n_[0] && !grid_.cells.periodic[0]; ++i)
-      if (open_rows(i) == 0) begins.push_back(i);
+      if (open_rows(i) == 0.0) begins.push_back(i);
     begins.push_back(n_[0]);
     return begins;
   }
@@ -126,22 +139,22 @@ class Closure {
 
   void even_out_along_x() {
     std::vector<bool> passable(static_cast<std::size_t>(n_[0]));
-    for (int i = 0; i < n_[0]; ++i) passable[static_cast<std::size_t>(i)] = open_rows(i) > 0;
+    for (int i = 0; i < n_[0]; ++i) passable[static_cast<std::size_t>(i)] = open_rows(i) > 0.0;
     for (int k = 0; k < n_[2]; ++k) {
       std::vector<double> gain(passable.size());
       for (int i = 0; i < n_[0]; ++i) gain[static_cast<std::size_t>(i)] = column(i, k);
       const std::vector<double> flux = flux_of_gains(gain, passable, grid_.cells.periodic[0]);
       for (int i = 0; i < n_[0]; ++i)
-        if (open_rows(i) > 0) pass(0, i, k, open_rows(i), flux[static_cast<std::size_t>(i)]);
+        if (open_rows(i) > 0.0) pass(0, i, k, open_rows(i), flux[static_cast<std::size_t>(i)]);
     }
   }
 
   const Grid& grid_;
-  std::array<int, 3> n_;
+  std::array<int, 3> n_;  // of the whole tank
   FaceField& flux_c_;
-  Field gain_;                   // -div of both fluxes [1/s]
-  std::vector<int> open_rows_;   // of the faces below column i along x
-  std::vector<double> columns_;  // sum of gain_ over each column
+  Field gain_;                     // -div of both fluxes [1/s]
+  std::vector<double> open_rows_;  // of the faces below column i along x, of the whole tank
+  std::vector<double> columns_;    // sum of gain_ over each column of the whole tank
 };
 
 }  // namespace

@@ -147,6 +147,7 @@ void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_direction
       k12[i] = k22[i] + inv_h2 * (1.0 - phi_c[i]) * c_s[i];
     });
     boundary_.exchange(k22_[d]);  // move_points() sums it over all faces of a cell
+    for (FaceField* k : {&k11_, &k12_, &k21_}) boundary_.share((*k)[d]);
   }
 }
 

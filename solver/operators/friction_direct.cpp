@@ -87,7 +87,7 @@ void FrictionDirect::for_each_strain(const Range& box, const FrictionForm& form,
 }
 
 bool FrictionDirect::factorise(const Range& box, const FrictionForm& form) {
-  if (grid_.dim != 2 || grid_.cells.periodic[0] || grid_.cells.periodic[1]) return false;
+  if (grid_.dim != 2 || grid_.cells.any_seam(0) || grid_.cells.any_seam(1)) return false;
   number(box, form);
   for_each_strain(box, form, [&](const Strain& strain) {
     const auto* end = strain.unknown.begin() + strain.count;

@@ -28,7 +28,7 @@ class FrictionDirect {
  public:
   explicit FrictionDirect(const Grid& grid) : grid_(grid) {}
 
-  // Numbers the unknown faces of the box and factorises, if that pays; false if not (thick beds, periodic
+  // Numbers the unknown faces of the box and factorises, if that pays; false if not (thick beds, seams
   // sides, three dimensions).
   bool factorise(const Range& box, const FrictionForm& form);
   // z = A^-1 r on the unknown faces, 0 on the others of the box.

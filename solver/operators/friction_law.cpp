@@ -172,8 +172,8 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
   const double* p = rheology.enduring_pressure.data();
   const double slowest = slowest_sliding * velocity_;
   for (int d = 0; d < grid_.dim; ++d) {
-    if (grid_.cells.periodic[d]) continue;
     for (const bool upper : {false, true}) {
+      if (grid_.cells.seam(d, upper)) continue;
       const SideRule& side = boundary_.side(d, upper);
       const double mu_w = side.friction;
       if (std::isinf(mu_w)) continue;

@@ -23,9 +23,10 @@ void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) 
   for (int c = 0; c < grid_.dim; ++c) {
     boundary_.exchange(u[c]);
     for (int d = 0; d < grid_.dim; ++d) {
-      if (d == c || l.periodic[d]) continue;
+      if (d == c) continue;
       const std::ptrdiff_t s = l.stride[d];
       for (int upper = 0; upper < 2; ++upper) {
+        if (l.seam(d, upper == 1)) continue;
         const double shift = moving_walls ? 2.0 * boundary_.side(d, upper).velocity[c] : 0.0;
         Range row = box_;
         row.upper[c] += 1;
@@ -41,8 +42,8 @@ void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) 
 }
 
 void Friction::apply(const FaceField& mass, const linear::Components& u, const linear::Components& y) {
-  Range with_wrapped = box_;  // the cell beyond a periodic lower end is a neighbour of face 0
-  for (int d = 0; d < grid_.dim; ++d) with_wrapped.lower[d] -= grid_.cells.periodic[d] ? 1 : 0;
+  Range with_beyond = box_;  // the cell beyond a lower seam is a neighbour of face 0
+  for (int d = 0; d < grid_.dim; ++d) with_beyond.lower[d] -= grid_.cells.seam(d, false) ? 1 : 0;
   double* div = divergence_.data();
   const double* lambda = lambda_.data();
   for (int d = 0; d < grid_.dim; ++d) {
@@ -50,9 +51,9 @@ void Friction::apply(const FaceField& mass, const linear::Components& u, const l
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h = 1.0 / grid_.h[d];
     if (d == 0) {
-      for_each(grid_.cells, with_wrapped, [=](std::ptrdiff_t c) { div[c] = (v[c + s] - v[c]) * inv_h; });
+      for_each(grid_.cells, with_beyond, [=](std::ptrdiff_t c) { div[c] = (v[c + s] - v[c]) * inv_h; });
     } else {
-      for_each(grid_.cells, with_wrapped, [=](std::ptrdiff_t c) { div[c] += (v[c + s] - v[c]) * inv_h; });
+      for_each(grid_.cells, with_beyond, [=](std::ptrdiff_t c) { div[c] += (v[c + s] - v[c]) * inv_h; });
     }
     for (int e = d + 1; e < grid_.dim; ++e) {
       const double *w = u[e], *edge = mu_edge_[plane_index(d, e)].data();

@@ -52,19 +52,18 @@ void Friction::set_own_diffusion(const FaceField& mass) {
           diagonal[c] +=
               m[c] * inv_h2 * (viscosity(c) * (1.0 - m[c - s]) + viscosity(c + s) * (1.0 - m[c + s]));
         });
-        if (!grid_.cells.periodic[e]) {
-          // a wall is half a cell away: its edge counts twice (once above, through the unmarked ghost)
-          for (const bool upper : {false, true}) {
-            if (upper ? box_.upper[e] < grid_.cells.n[e] : box_.lower[e] > 0) continue;
-            Range wall = Range::all(layout);
-            wall.lower[e] = upper ? layout.n[e] - 1 : 0;
-            wall.upper[e] = wall.lower[e] + 1;
-            const std::ptrdiff_t at = upper ? s : 0;
-            for_each(layout, wall,
-                     [=](std::ptrdiff_t c) { diagonal[c] += m[c] * inv_h2 * viscosity(c + at); });
-          }
+        // a wall is half a cell away: its edge counts twice (once above, through the unmarked ghost)
+        for (const bool upper : {false, true}) {
+          if (grid_.cells.seam(e, upper)) continue;
+          if (upper ? box_.upper[e] < grid_.cells.n[e] : box_.lower[e] > 0) continue;
+          Range wall = Range::all(layout);
+          wall.lower[e] = upper ? layout.n[e] - 1 : 0;
+          wall.upper[e] = wall.lower[e] + 1;
+          const std::ptrdiff_t at = upper ? s : 0;
+          for_each(layout, wall, [=](std::ptrdiff_t c) { diagonal[c] += m[c] * inv_h2 * viscosity(c + at); });
         }
       }
+      boundary_.share(coefficient_[d][e]);
     }
   }
 }

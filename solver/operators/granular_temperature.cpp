@@ -114,6 +114,7 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
       // no conduction into cells without grains
       k[c] = mass[c] > 0.0 && mass[c - s] > 0.0 ? 0.5 * (kappa[c] + kappa[c - s]) * inv_h2 : 0.0;
     });
+    boundary_.share(conductivity_[d]);
     faces.lower[d] = k;
   }
   const double scale =

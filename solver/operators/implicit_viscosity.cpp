@@ -58,7 +58,7 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
     if (e == d) {
       couple([=](std::ptrdiff_t c) { return 2.0 * mu[c - s]; },
              [=](std::ptrdiff_t c) { return 2.0 * mu[c]; });
-      if (!grid_.cells.periodic[d]) {  // no gradient beyond a lower side that the fluid passes
+      if (!grid_.cells.seam(d, false)) {  // no gradient beyond a lower side that the fluid passes
         Range first = Range::all(layout);
         first.upper[d] = 1;
         for_each(layout, first, [=](std::ptrdiff_t c) { a[c] = 0.0; });
@@ -71,16 +71,17 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
       couple([=](std::ptrdiff_t c) { return edge[c]; }, [=](std::ptrdiff_t c) { return edge[c + t]; });
       set_sides(d, e, edge);
     }
+    boundary_.share(coefficient_[e]);
   }
 }
 
 // The sides of direction e beside component d: what the ghosts are by the side's tangent.
 void ImplicitViscosity::set_sides(int d, int e, const double* edge) {
-  if (grid_.cells.periodic[e]) return;
   const Layout layout = grid_.face_layout(d);
   double *a = coefficient_[e].data(), *diagonal = diagonal_.data();
   const double* open = open_.data();
   for (const bool upper : {false, true}) {
+    if (layout.seam(e, upper)) continue;
     Range row = Range::all(layout);
     row.lower[e] = upper ? layout.n[e] - 1 : 0;
     row.upper[e] = row.lower[e] + 1;

@@ -6,7 +6,7 @@
 namespace granvof {
 
 // Sum of weight * body(edge) over the edges of plane (d, e). An edge on a side counts half: the stress there
-// acts on one row of faces only. Periodic ends count once. In a corner of two closed sides the stress acts on
+// acts on one row of faces only. Seams count once. In a corner of two closed sides the stress acts on
 // no face whose momentum is solved, and does no work.
 template <typename Body>
 double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
@@ -17,11 +17,11 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
   };
   const auto parts = [&](int direction) {
     const int n = grid.cells.n[direction];
-    if (grid.cells.periodic[direction])
-      return std::array<Part, 3>{{{0, n, 1.0, false}, {0, 0, 0.0, false}, {0, 0, 0.0, false}}};
+    const bool below = !grid.cells.seam(direction, false), above = !grid.cells.seam(direction, true);
     const auto closed = [&](bool upper) { return !grid.side(direction, upper).passes_fluid; };
-    return std::array<Part, 3>{
-        {{0, 1, 0.5, closed(false)}, {1, n, 1.0, false}, {n, n + 1, 0.5, closed(true)}}};
+    return std::array<Part, 3>{{{0, 1, below ? 0.5 : 0.0, closed(false)},
+                                {below ? 1 : 0, n, 1.0, false},
+                                {n, n + 1, above ? 0.5 : 0.0, closed(true)}}};
   };
   double total = 0.0;
   for (const Part& a : parts(d)) {
@@ -32,10 +32,10 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
       r.upper[d] = a.upper;
       r.lower[e] = b.lower;
       r.upper[e] = b.upper;
-      total += a.weight * b.weight * sum_over(grid.cells, r, body);
+      total += a.weight * b.weight * of_process::sum_over(grid.cells, r, body);
     }
   }
-  return total;
+  return of_all(grid.cells, total);
 }
 
 // Power [W] that moving walls give to a phase whose shear stress [Pa] on the edge with index c of plane (d,
@@ -44,8 +44,8 @@ template <typename Stress>
 double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
   double total = 0.0;
   for (int d = 0; d < grid.dim; ++d) {
-    if (grid.cells.periodic[d]) continue;
     for (int upper = 0; upper < 2; ++upper) {
+      if (grid.cells.seam(d, upper == 1)) continue;
       for (int e = 0; e < grid.dim; ++e) {
         const double speed = boundary.side(d, upper).velocity[e];
         if (e == d || speed == 0.0) continue;
@@ -53,7 +53,7 @@ double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
         const auto on_wall = [&](Range faces) {  // those of component e along the wall
           faces.lower[d] = upper ? grid.cells.n[d] : 0;
           faces.upper[d] = faces.lower[d] + 1;
-          return sum_over(grid.cells, faces, of_edge);
+          return of_process::sum_over(grid.cells, faces, of_edge);
         };
         double sum = on_wall(grid.inner_faces(e));
         for (const bool far : {false, true})
@@ -62,7 +62,7 @@ double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
       }
     }
   }
-  return total;
+  return of_all(grid.cells, total);
 }
 
 }  // namespace granvof

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "solver/output/empty_values.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/standard_streams.hpp"
+#include "solver/parallel/processes.hpp"
 #include "solver/plausibility/plausibility.hpp"
 #include "solver/program/report.hpp"
 #include "solver/program/start_picture.hpp"
@@ -71,11 +73,22 @@ granvof::Scene load(const Arguments& arguments) {
 }
 
 int run(Arguments& arguments) {
-  const granvof::Scene scene = load(arguments);
   granvof::RunOptions& options = arguments.run;
+  const granvof::Scene scene = options.processes == nullptr
+                                   ? load(arguments)
+                                   : granvof::load_alike(*options.processes, [&] { return load(arguments); });
   if (options.out.empty()) options.out = std::filesystem::path("out") / "runs" / scene.name;
   options.progress = isatty(STDERR_FILENO) != 0;
   return granvof::run_case(scene, options);
+}
+
+// All but `run` is done by one process.
+void require_alone(const CLI::App& app, const granvof::Communicator* processes) {
+  for (const CLI::App* command : app.get_subcommands())
+    if (processes != nullptr && command->get_name() != "run")
+      throw granvof::CaseError(
+          fmt::format("granvof: {}: got {} processes, allowed: one; start it without mpirun",
+                      command->get_name(), processes->size()));
 }
 
 int check(const Arguments& arguments) {
@@ -127,7 +140,7 @@ std::string failure_text(const CLI::App* app, const CLI::Error& error) {
                      granvof::case_file::printable(what, longest_message));
 }
 
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(int argc, char** argv, const granvof::Communicator* processes) {
   CLI::App app{"A continuum solver for gas-liquid-solid flow."};
   app.name("granvof");
   app.set_version_flag("--version", version_text());
@@ -136,6 +149,7 @@ int parse_and_run(int argc, char** argv) {
 
   Arguments arguments;
   arguments.run.command = command_line(argc, argv);
+  arguments.run.processes = processes;
   CLI::App& run_command = *app.add_subcommand("run", "Run a case and write its results");
   add_case(run_command, arguments);
   std::string out;
@@ -184,6 +198,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
+  require_alone(app, processes);
   arguments.run.out = out;
   if (!stop_after.empty()) arguments.run.stop_after = granvof::read_duration(stop_after);
   if (keys_command.parsed()) return keys();
@@ -208,8 +223,12 @@ int say(const std::exception& error, int code) {
 int main(int argc, char** argv) {
   granvof::keep_standard_streams_taken();
   send_messages_to_stderr();
+  // Of several processes the lowest speaks.
+  std::unique_ptr<granvof::Communicator> processes;
   try {
-    const int code = parse_and_run(argc, argv);
+    processes = granvof::launched_processes();
+    if (processes != nullptr && processes->rank() > 0) granvof::keep_silent();
+    const int code = parse_and_run(argc, argv, processes.get());
     granvof::require_stdout_written();
     return code;
   } catch (const granvof::CaseError& error) {  // a line for each fault, made printable where it was found

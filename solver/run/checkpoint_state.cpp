@@ -7,14 +7,6 @@
 namespace granvof {
 namespace {
 
-// visit(name, field) for every field of the state.
-template <typename StateType, typename Visit>
-void for_each_field(const Grid& grid, StateType& s, Visit&& visit) {
-  for (const CellQuantity& q : cell_quantities) visit(q.key, s.*q.field);
-  for (const FaceQuantity& q : face_quantities)
-    for (int d = 0; d < grid.dim; ++d) visit(q.key + std::to_string(d), (s.*q.field)[d]);
-}
-
 template <typename Counters, typename Visit>
 void for_each_counter(Counters& c, Visit&& visit) {
   visit("steps", c.steps);
@@ -32,7 +24,7 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
                                const RunProgress& progress) {
   CheckpointView view;
   view.time = s.time;
-  for_each_field(grid, s, [&](const std::string& name, const Field& f) { view.arrays[name] = f.span(); });
+  for_each_field(grid, s, [&](const FieldOfState& of, const Field& f) { view.arrays[of.key()] = f.span(); });
   for_each_counter(counters, [&](const char* name, std::int64_t value) { view.counters[name] = value; });
   const Monitors::Values v = monitors.values();
   view.scalars = {{"last_dt", control.last()},
@@ -53,8 +45,8 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
 void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& control, Monitors& monitors,
              RunCounters& counters) {
   s.time = saved.time;
-  for_each_field(grid, s, [&](const std::string& name, Field& f) {
-    const std::vector<double>& values = saved.array(name, f.span().size());
+  for_each_field(grid, s, [&](const FieldOfState& of, Field& f) {
+    const std::vector<double>& values = saved.array(of.key(), f.span().size());
     std::copy(values.begin(), values.end(), f.span().begin());
   });
   for (const EnergyTerm& term : energy_terms) s.energy.*term.value = saved.scalar(term.name);

@@ -83,7 +83,7 @@ void Faces::add_solid(int d) {
   work_.convected += volume * (predicted - gravity);
   work_.slip += volume * dt_ * slip;
   work_.solid_transport += volume * dt_ * (confined_[d] * rho_s * spread - pressed / grid_.h[d]);
-  if (grid_.side(d, false).joined) work_.driving += volume * gravity;
+  if (grid_.cells.periodic[d]) work_.driving += volume * gravity;
 }
 
 void Faces::add_fluid(int d, const Range& faces, double weight) {
@@ -125,7 +125,7 @@ void Faces::add_fluid(int d, const Range& faces, double weight) {
   work_.convected += volume * convected;
   work_.viscous += volume * (predicted - convected - gravity);
   work_.fluid_transport += volume * (dt_ * confined_[d] * lifted - dt_h * pressed);
-  if (grid_.side(d, false).joined) work_.driving += volume * gravity;
+  if (grid_.cells.periodic[d]) work_.driving += volume * gravity;
 }
 
 // Mass that leaves takes its height along.

@@ -16,6 +16,7 @@
 #include "solver/output/stop_signals.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/closing_line.hpp"
+#include "solver/run/cut.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/progress_line.hpp"
 #include "solver/run/run_log.hpp"
@@ -55,13 +56,28 @@ std::vector<LedgerTerm> ledger() {
   return terms;
 }
 
+int processes_of(const RunOptions& options) {
+  return options.processes == nullptr ? 1 : options.processes->size();
+}
+
+// What the processes do that do not lead.
+int follow(const Scene& scene, const Communicator& processes) {
+  try {
+    return TimeLoop(scene, &processes).follow();
+  } catch (const std::exception& error) {
+    spdlog::error("{}: process {}: {}", scene.name, processes.rank(), error.what());
+    processes.abort(1);
+    return 1;
+  }
+}
+
 // One run: what is done with the steps of the time loop.
 class Run {
  public:
   Run(const Scene& scene, const RunOptions& options)
       : scene_(scene),
         options_(options),
-        loop_(scene),
+        loop_(scene, options.processes),
         start_energy_(loop_.now().energy),
         alarms_(scene, start_energy_),
         writer_(open_writer()),
@@ -83,8 +99,9 @@ class Run {
   std::optional<Ending> show_progress();
   std::optional<Ending> asked_to_stop() const;
 
-  // Rows and fields between that state and the present one.
-  void write_output(const State& earlier, const std::vector<DueOutput>& due_now);
+  // Rows and fields after the state before the last step, at the start those of the start.
+  void write_output(bool at_start, const std::vector<DueOutput>& due_now);
+  void log_traffic() const;
   RunProgress progress() const;
   int finish(const Ending& ending);
   int give_up(ExitKind kind, const std::string& reason);
@@ -95,7 +112,15 @@ class Run {
   using Clock = std::chrono::steady_clock;
   Clock::time_point launched_ = Clock::now();
   TimeLoop loop_;
-  EnergyTerms start_energy_;  // of the scene's start, whatever it is resumed from
+  // The others end when this process does, with the code that it ends with: that of bad input unless it gets
+  // to its steps.
+  struct Dismissal {
+    const TimeLoop& loop;
+    int code = 2;
+    ~Dismissal() { loop.dismiss(code); }
+  } dismissal_{loop_};
+  double core_seconds_of_others_ = 0.0;  // when it was last asked
+  EnergyTerms start_energy_;             // of the scene's start, whatever it is resumed from
   Alarms alarms_;
   bool begins_ = true;  // not resumed
   RunWriter writer_;
@@ -107,7 +132,7 @@ class Run {
 };
 
 RunWriter Run::open_writer() {
-  const RunStart start{"granvof", options_.command, 1, options_.threads, ledger()};
+  const RunStart start{"granvof", options_.command, processes_of(options_), options_.threads, ledger()};
   if (!options_.resume)
     return RunWriter::fresh(options_.out, scene_, start, monitor_columns(), options_.force);
   ResumedRun resumed = RunWriter::resume(options_.out, scene_, start, monitor_columns());
@@ -123,10 +148,13 @@ RunWriter Run::open_writer() {
 
 // The flow knows nothing of its output: no step is cut for it. What falls into a step is interpolated between
 // the two states; monitors are those of that step.
-void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_now) {
+void Run::write_output(bool at_start, const std::vector<DueOutput>& due_now) {
+  if (due_now.empty()) return;
   const StepReport& last = loop_.last_step();
+  const State& now = loop_.whole_now();
+  const State& earlier = at_start ? now : loop_.whole_before();
   for (const DueOutput& due : due_now) {
-    const CellFields fields = cell_fields(loop_.grid(), earlier, loop_.now(), due.time);
+    const CellFields fields = cell_fields(loop_.whole_grid(), earlier, now, due.time);
     if (due.row) {
       std::vector<Value> row{loop_.last_dt(),
                              static_cast<double>(last.pressure.newton),
@@ -134,7 +162,7 @@ void Run::write_output(const State& earlier, const std::vector<DueOutput>& due_n
                              static_cast<double>(last.friction.iterations),
                              loop_.monitors().solid_volume_error(),
                              loop_.monitors().liquid_volume_error()};
-      const EnergyTerms energy = energy_terms_at(earlier, loop_.now(), due.time);
+      const EnergyTerms energy = energy_terms_at(earlier, now, due.time);
       for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
       last_row_ = extract_scalars(fields, scene_);
       writer_.write_series_row(due.time, row, last_row_);
@@ -150,10 +178,10 @@ RunProgress Run::progress() const {
   RunProgress p;
   p.steps = counters.steps;
   p.refused_steps = counters.refused_steps;
-  p.cells = static_cast<std::int64_t>(loop_.grid().cells.count());
+  p.cells = static_cast<std::int64_t>(loop_.whole_grid().cells.count());
   p.simulated_time = std::min(loop_.now().time, scene_.times.end);
   p.wall_seconds = counters.wall_seconds + seconds_since(started_);
-  p.core_seconds = counters.core_seconds + core_seconds() - started_core_;
+  p.core_seconds = counters.core_seconds + core_seconds() - started_core_ + core_seconds_of_others_;
   p.cost = loop_.cost();
   p.solid_volume_error = monitors.solid_volume_error();
   p.liquid_volume_error = monitors.liquid_volume_error();
@@ -174,15 +202,28 @@ RunProgress Run::progress() const {
 int Run::finish(const Ending& ending) {
   progress_line_.clear();
   const RunExit& exit = ending.exit;
+  core_seconds_of_others_ = loop_.core_seconds_of_others();
   const RunProgress done = progress();
   if (ending.undo_last_step) loop_.step_back();
   writer_.write_checkpoint(loop_.checkpoint(done), done);
   const bool finished = exit.state == ExitState::finished;
   if (!finished) spdlog::error("{}: {}; {}", scene_.name, exit.reason, what_is_left());
   writer_.finish(done, exit);
+  log_traffic();
   if (finished) spdlog::info(closing_line(scene_, done, last_row_, options_.out));
   if (exit.kind == ExitKind::wall_clock_limit) return exit_code_at_wall_clock_limit;
   return finished ? 0 : 1;
+}
+
+void Run::log_traffic() const {
+  if (options_.processes == nullptr) return;
+  const Communicator::Traffic t = options_.processes->traffic();
+  const double steps = static_cast<double>(std::max<std::int64_t>(1, loop_.counters().steps));
+  spdlog::info(
+      "{}: {} processes; the first sent {:.1f} messages of {:.3g} MB in all a step and met the others "
+      "{:.1f} times",
+      scene_.name, processes_of(options_), static_cast<double>(t.messages) / steps,
+      1e-6 * static_cast<double>(t.bytes) / steps, static_cast<double>(t.meetings) / steps);
 }
 
 std::string Run::what_is_left() const {
@@ -206,12 +247,16 @@ int Run::go() {
     log_.open(options_.out, !begins_);
     spdlog::info("{}: granvof {}, {} thread{}: {}", scene_.name, build_info().version, options_.threads,
                  options_.threads == 1 ? "" : "s", options_.command);
-    if (begins_) write_output(loop_.now(), due_output(scene_.times, -1.0, loop_.now().time));
-    return steps();
+    if (begins_) write_output(true, due_output(scene_.times, -1.0, loop_.now().time));
+    return dismissal_.code = steps();
   } catch (const OutputError& error) {
-    return give_up(ExitKind::output, fmt::format("its output cannot be written: {}", error.what()));
+    return dismissal_.code =
+               give_up(ExitKind::output, fmt::format("its output cannot be written: {}", error.what()));
   } catch (const std::exception& error) {
-    return give_up(ExitKind::error, error.what());
+    dismissal_.code = give_up(ExitKind::error, error.what());
+    // The others may wait in a step that this one has left.
+    if (options_.processes != nullptr) options_.processes->abort(dismissal_.code);
+    return dismissal_.code;
   }
 }
 
@@ -226,7 +271,7 @@ int Run::steps() {
 }
 
 std::optional<TimeLoop::Ending> Run::write_what_is_due() {
-  write_output(loop_.before(), due_output(scene_.times, loop_.before().time, loop_.now().time));
+  write_output(false, due_output(scene_.times, loop_.before().time, loop_.now().time));
   return std::nullopt;
 }
 
@@ -248,6 +293,7 @@ std::optional<TimeLoop::Ending> Run::end_of_scene() const {
 std::optional<TimeLoop::Ending> Run::write_checkpoint_in_time() {
   const double interval = scene_.times.checkpoint_interval;
   if (interval > 0.0 && seconds_since(last_checkpoint_) >= interval) {
+    core_seconds_of_others_ = loop_.core_seconds_of_others();
     const RunProgress p = progress();
     writer_.write_checkpoint(loop_.checkpoint(p), p);
     last_checkpoint_ = Clock::now();
@@ -276,8 +322,10 @@ std::optional<TimeLoop::Ending> Run::asked_to_stop() const {
 
 int run_case(const Scene& scene, const RunOptions& options) {
   check_memory(scene);
+  check_cut(scene, processes_of(options));
   omp_set_num_threads(std::max(1, options.threads));
   listen_to_stop_signals();
+  if (options.processes != nullptr && options.processes->rank() > 0) return follow(scene, *options.processes);
   return Run(scene, options).go();
 }
 

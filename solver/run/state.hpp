@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "solver/grid/boundary.hpp"
 #include "solver/run/energy_terms.hpp"
@@ -56,6 +57,27 @@ inline constexpr std::array face_quantities{
     FaceQuantity{"u_c", "velocity of the continuous phase", &State::u_c, Phase::fluid},
     FaceQuantity{"u_strain", "solid velocity after friction", &State::u_strain, Phase::solid},
 };
+
+// One of the fields of every state.
+struct FieldOfState {
+  const CellQuantity* of_cells = nullptr;  // or
+  const FaceQuantity* of_faces = nullptr;
+  int d = 0;  // and which component
+
+  std::string key() const { return of_cells ? of_cells->key : of_faces->key + std::to_string(d); }
+  template <typename StateType>
+  auto& operator()(StateType& s) const {
+    return of_cells ? s.*of_cells->field : (s.*of_faces->field)[d];
+  }
+};
+
+// visit(FieldOfState, its field) for every field of a state.
+template <typename StateType, typename Visit>
+void for_each_field(const Grid& grid, StateType& s, Visit&& visit) {
+  for (const CellQuantity& q : cell_quantities) visit(FieldOfState{&q, nullptr, 0}, s.*q.field);
+  for (const FaceQuantity& q : face_quantities)
+    for (int d = 0; d < grid.dim; ++d) visit(FieldOfState{nullptr, &q, d}, (s.*q.field)[d]);
+}
 
 // The state at the start of a scene: the bed and the liquid by volume share of each cell, both at rest, fluid
 // pressure hydrostatic, no solid pressure: the packing takes the bed's weight in the first steps. Where the

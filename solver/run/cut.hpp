@@ -1,0 +1,12 @@
+// Whether a scene can be run by several processes.
+#pragma once
+
+#include "solver/scene/scene.hpp"
+
+namespace granvof {
+
+// Throws CaseError where so many processes cannot share the tank: too few rows, obstacles, flow through other
+// sides than an open top.
+void check_cut(const Scene& scene, int processes);
+
+}  // namespace granvof
