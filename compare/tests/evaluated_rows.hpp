@@ -15,6 +15,7 @@
 #include "compare/tests/files_stated.hpp"
 #include "solver/output/seal.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -85,8 +86,8 @@ class Evaluate : public testing::Test {
 
   test::TemporaryDirectory directory_;
   const fs::path& root_ = directory_.path();
-  Paths paths_{root_ / "runs", fs::path(GRANVOF_CASES_DIR), root_ / "records"};
-  Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml");
+  Paths paths_{root_ / "runs", cases_directory(), root_ / "records"};
+  Scene scene_ = load_scene(cases_directory() / "s1.toml");
 };
 
 }  // namespace granvof::compare

@@ -8,11 +8,12 @@
 #include "compare/study/study_file.hpp"
 #include "solver/scene/cost_estimate.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
 
-const std::filesystem::path s1 = std::filesystem::path(GRANVOF_CASES_DIR) / "s1.toml";
+const std::filesystem::path s1 = cases_directory() / "s1.toml";
 
 // Each run takes `factor` times what is estimated.
 class FakeRunner : public Runner {
@@ -82,7 +83,7 @@ TEST(AdviseDefaults, NoCellIsSmallerThanAGrain) {
 }
 
 TEST(AdviseDefaults, NeitherExplicitContactsNorAnotherScenesGrains) {
-  const Study study = read_study(std::filesystem::path(GRANVOF_CASES_DIR) / "../compare/study.toml");
+  const Study study = read_study(cases_directory() / "../compare/study.toml");
   const auto has = [](const std::vector<Method>& methods, std::string_view part) {
     return std::any_of(methods.begin(), methods.end(),
                        [&](const Method& m) { return m.name.find(part) != std::string::npos; });

@@ -13,6 +13,7 @@
 #include "compare/engine/engine.hpp"
 #include "compare/tests/stand_in.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -29,7 +30,7 @@ class RunEngine : public testing::Test {
     return Engine({{program_.string()}, at_a_time, root_ / "accounts.csv"});
   }
   Order order(const std::string& id) const {
-    Order wanted{id, fs::path(GRANVOF_CASES_DIR) / "canary.toml", {"time.end=2"}, root_ / id};
+    Order wanted{id, cases_directory() / "canary.toml", {"time.end=2"}, root_ / id};
     return wanted;
   }
   std::vector<std::string> lines(const fs::path& file) const {

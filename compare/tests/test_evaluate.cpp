@@ -14,6 +14,7 @@
 #include "compare/output/write.hpp"
 #include "compare/tests/evaluated_rows.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -275,7 +276,7 @@ TEST_F(Evaluate, NothingDueIsNoSuccess) {
 // compare.
 TEST_F(Evaluate, AFrontAgainstAPublishedSeries) {
   fs::create_directories(root_ / "cases");
-  fs::copy(fs::path(GRANVOF_CASES_DIR) / "s1.toml", root_ / "cases" / "s1.toml");
+  fs::copy(cases_directory() / "s1.toml", root_ / "cases" / "s1.toml");
   paths_.cases = root_ / "cases";
   write(root_ / "cases" / "published" / "front.tsv", "t [s]\tfront [m]\n0.1\t0.10\n0.5\t0.14\n");
   write_run("s1", series(0.1));

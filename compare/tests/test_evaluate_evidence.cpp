@@ -7,6 +7,7 @@
 #include "compare/output/write.hpp"
 #include "compare/tests/evaluated_rows.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -30,7 +31,7 @@ TEST_F(Evaluate, ARecordMayBeLongerOrShorterThanTheRun) {
   write_record("seed1", 0.1, scene_.reference_hash);
   for (const char* end : {"5", "20"}) {
     const std::vector<std::string> set{std::string("time.end=") + end};
-    Scene other = load_scene(fs::path(GRANVOF_CASES_DIR) / "s1.toml", set);
+    Scene other = load_scene(cases_directory() / "s1.toml", set);
     other.reference_hash = scene_.reference_hash;  // whatever the hash knows of the end
     EXPECT_TRUE(load_records(paths_.records, "s1", other).at(0).run) << end;
   }

@@ -12,6 +12,7 @@
 #include "solver/output/fields_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -124,7 +125,7 @@ TEST_F(Evidence, AChangedDigitIsAnotherFile) {
 class EvidenceOfFields : public testing::Test {
  protected:
   EvidenceOfFields() {
-    Scene scene = load_scene(fs::path(GRANVOF_CASES_DIR) / "canary.toml");
+    Scene scene = load_scene(cases_directory() / "canary.toml");
     scene.grid.cells = {2, 2, 1};
     auto file = FieldsFile::create(directory_.path(), scene);
     CellFields fields;

@@ -9,6 +9,7 @@
 #include "compare/lay/lay.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -32,7 +33,7 @@ class Lay : public testing::Test {
   }
 
   const test::TemporaryDirectory directory_;
-  const Scene scene_ = load_scene(std::filesystem::path(GRANVOF_CASES_DIR) / "s1.toml");
+  const Scene scene_ = load_scene(cases_directory() / "s1.toml");
   const double height_ = scene_.bed->box.upper[1] - scene_.bed->box.lower[1];
   const double tau_ = std::sqrt(height_ / scene_.gravity);
   // Our front moves h0 in 2 tau.

@@ -8,6 +8,7 @@
 #include "compare/checks/table.hpp"
 #include "compare/study/like_scene.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path cases = GRANVOF_CASES_DIR;
+const fs::path cases = cases_directory();
 
 Scene shipped(const std::string& name, const std::vector<std::string>& set = {}) {
   return load_scene(cases / (name + ".toml"), set);

@@ -8,6 +8,7 @@
 #include "compare/study/ablate.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/presets.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -16,7 +17,7 @@ const std::vector<Part> parts{{"no LES", {"model.les=false"}, std::nullopt, ""},
                               {"choices", {}, Form::each_choice, ""}};
 
 Scene canary(const std::vector<std::string>& set) {
-  return load_scene(GRANVOF_CASES_DIR "/canary.toml", set);
+  return load_scene(cases_directory() / "canary.toml", set);
 }
 
 // Each part changes the one key that its name says, and nothing else.

@@ -6,6 +6,7 @@
 #include "compare/input/published.hpp"
 #include "compare/metrics/solid_level.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -43,7 +44,7 @@ TEST(Published, BadInputIsNamedWithItsLine) {
 }
 
 TEST(Published, TheProjectsOwnSeriesAreReadable) {
-  const std::filesystem::path published = std::filesystem::path(GRANVOF_CASES_DIR) / "published";
+  const std::filesystem::path published = cases_directory() / "published";
   EXPECT_EQ(read_published(published / "martin_moyce_1952.tsv", "delta").value.front(), 1.0);
   EXPECT_GT(read_published(published / "pham_van_bang_fronts.tsv", "packed_front").size(), 20u);
 }

@@ -9,12 +9,13 @@
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/restate.hpp"
 #include "solver/scene/scales.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
 
 Scene column() {
-  return load_scene(GRANVOF_CASES_DIR "/invariance/column.toml");
+  return load_scene(cases_directory() / "invariance/column.toml");
 }
 
 // Rows at these times [s], with a front and a volume that grow with it.

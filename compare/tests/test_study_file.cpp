@@ -4,6 +4,7 @@
 
 #include "compare/study/study_file.hpp"
 #include "compare/tests/toml_refusal.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -79,7 +80,7 @@ TEST(StudyFile, ReadsMethodsPartsAndCharts) {
 }
 
 TEST(StudyFile, TheShippedFileIsAccepted) {
-  const Study study = read_study(GRANVOF_CASES_DIR "/../compare/study.toml");
+  const Study study = read_study(cases_directory() / "../compare/study.toml");
   EXPECT_FALSE(study.methods.empty());
   EXPECT_FALSE(study.parts.empty());
 }

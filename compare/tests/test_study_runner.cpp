@@ -14,6 +14,7 @@
 #include "compare/study/runner.hpp"
 #include "compare/tests/stand_in.hpp"
 #include "solver/output/seal.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -34,7 +35,7 @@ class StudyRunner : public testing::Test {
     return CachedRunner(options);
   }
   std::size_t calls() const { return test::calls_beside(root_ / "program").size(); }
-  const Job job_{fs::path(GRANVOF_CASES_DIR) / "canary.toml", {"time.end=2"}};
+  const Job job_{cases_directory() / "canary.toml", {"time.end=2"}};
   const granvof::test::TemporaryDirectory directory_;
   const fs::path& root_ = directory_.path();
 };

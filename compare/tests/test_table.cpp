@@ -8,6 +8,7 @@
 #include "compare/checks/evaluate.hpp"
 #include "compare/checks/table.hpp"
 #include "compare/tests/toml_refusal.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -190,7 +191,7 @@ TEST(Table, RefusesARunBesideNothing) {
 
 // Every scene of the paper that is run with the paper's preset is run with the default one too.
 TEST(Table, TheShippedOneHasTheAdvisedRunBesideEveryScene) {
-  const Table table = read_table(GRANVOF_CASES_DIR "/../compare/checks.toml");
+  const Table table = read_table(cases_directory() / "../compare/checks.toml");
   const std::set<std::string> dear{"sw", "fw"};  // a quarter of an hour each
   for (const PlannedRun& run : table.runs) {
     if (!run.set.empty() || dear.contains(run.id)) continue;
@@ -311,7 +312,7 @@ TEST(Table, ANameLeadsOutOfNowhere) {
 }
 
 TEST(Table, ACaseMayBeInAFolder) {
-  const Table table = read_table(GRANVOF_CASES_DIR "/../compare/checks.toml");
+  const Table table = read_table(cases_directory() / "../compare/checks.toml");
   const auto found = std::ranges::find(table.runs, "column-paper", &PlannedRun::id);
   ASSERT_NE(found, table.runs.end());
   EXPECT_EQ(found->case_name, "invariance/column");
@@ -348,7 +349,7 @@ TEST(Table, EveryExpectedFailureNamesADeclaredCause) {
 }
 
 TEST(Table, TheShippedCausesAreFew) {
-  const Table table = read_table(GRANVOF_CASES_DIR "/../compare/checks.toml");
+  const Table table = read_table(cases_directory() / "../compare/checks.toml");
   EXPECT_GT(table.causes.size(), 5u);
   EXPECT_LT(table.causes.size(), 20u);
   for (const Check& check : table.checks)
@@ -357,7 +358,7 @@ TEST(Table, TheShippedCausesAreFew) {
 
 TEST(Table, ADirectoryIsNoTable) {
   try {
-    read_table(GRANVOF_CASES_DIR);
+    read_table(cases_directory());
     FAIL();
   } catch (const TableError& error) {
     EXPECT_NE(std::string(error.what()).find("Is a directory"), std::string::npos);

@@ -12,6 +12,7 @@
 #include "compare/tests/files_stated.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -44,7 +45,7 @@ class Records : public testing::Test {
   }
   const test::TemporaryDirectory directory_;
   const fs::path& root_ = directory_.path();
-  const Scene scene_ = load_scene(fs::path(GRANVOF_CASES_DIR) / "canary.toml");
+  const Scene scene_ = load_scene(cases_directory() / "canary.toml");
 };
 
 TEST_F(Records, BandsOfSeedGridAndSliceAreTakenTogether) {

@@ -9,6 +9,7 @@
 #include "compare/study/ablate.hpp"
 #include "compare/study/runner.hpp"
 #include "compare/study/study_file.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof::compare {
@@ -53,8 +54,8 @@ set = ["model.colour=7"]
 
 TEST(Ablate, TellsPartsThatMatterFromPartsThatDoNot) {
   const test::TemporaryDirectory root;
-  const fs::path file = fs::path(GRANVOF_CASES_DIR) / "canary.toml";
-  const fs::path records = fs::path(GRANVOF_CASES_DIR) / "../reference/results";
+  const fs::path file = cases_directory() / "canary.toml";
+  const fs::path records = cases_directory() / "../reference/results";
   const std::vector<std::string> set{"grid.dx=0.005", "time.end=2", "output.field_times=[0]"};
   RunnerOptions options{GRANVOF_PROGRAM, root.path()};
   options.progress = false;

@@ -9,12 +9,13 @@
 
 #include "solver/closures/drag/laws.hpp"
 #include "solver/output/extract.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof {
 namespace {
 
 std::string page(const char* name) {
-  std::ifstream file(std::filesystem::path(GRANVOF_CASES_DIR).parent_path() / "docs" / name);
+  std::ifstream file(cases_directory().parent_path() / "docs" / name);
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

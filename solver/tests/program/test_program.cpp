@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace {
@@ -45,7 +46,9 @@ class Program : public ::testing::Test {
   std::string record() const { return text("out/run.json"); }
   std::string log() const { return text("out/run.log"); }
 
-  static std::string shipped(const std::string& name) { return "'" GRANVOF_CASES_DIR "/" + name + ".toml'"; }
+  static std::string shipped(const std::string& name) {
+    return "'" + granvof::cases_directory().string() + "/" + name + ".toml'";
+  }
 
  private:
   std::string text(const std::string& name) const {

@@ -5,13 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "solver/run/energy_terms.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/run/small_runs.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
 namespace granvof {
 namespace {
 
-const std::filesystem::path root = std::filesystem::path(GRANVOF_CASES_DIR).parent_path();
+const std::filesystem::path root = cases_directory().parent_path();
 
 std::string table() {
   std::string text =

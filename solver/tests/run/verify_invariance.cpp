@@ -4,6 +4,7 @@
 // invariance in compare/checks.toml, of the same scenes.)
 #include <ostream>
 
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/run/mapped_runs.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
@@ -24,7 +25,7 @@ void PrintTo(const Choice& choice, std::ostream* out) {
 
 Scene small_scene(const Choice& choice, std::vector<std::string> overrides = {}) {
   overrides.push_back("model.preset=" + choice.preset);
-  return load_scene(GRANVOF_CASES_DIR "/invariance/" + choice.scene + ".toml", overrides);
+  return load_scene(cases_directory() / "invariance" / (choice.scene + ".toml"), overrides);
 }
 
 class Invariance : public ::testing::TestWithParam<Choice> {

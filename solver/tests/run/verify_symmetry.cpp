@@ -1,6 +1,7 @@
 // What must not depend on the direction, the dimension or a coordinate that a scene does not have.
 #include <cmath>
 
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/run/small_runs.hpp"
 
 namespace granvof {
@@ -103,7 +104,7 @@ Spread spread_along_x(const Simulation& run) {
 }
 
 Scene piston(std::vector<std::string> overrides) {
-  return load_scene(GRANVOF_CASES_DIR "/float-full-r02.toml", overrides);
+  return load_scene(cases_directory() / "float-full-r02.toml", overrides);
 }
 
 // Before the water stops the bed nothing amplifies what rounding leaves. Measured: 1.1e-9.
@@ -135,7 +136,7 @@ TEST(Symmetry, APistonStaysAPiston) {
 }
 
 TEST(Rest, APoolStaysAtRest) {
-  Scene scene = load_scene(GRANVOF_CASES_DIR "/pool.toml", std::vector<std::string>{"grid.dx=0.01"});
+  Scene scene = load_scene(cases_directory() / "pool.toml", std::vector<std::string>{"grid.dx=0.01"});
   Simulation run(scene);
   double fastest = 0.0;
   while (run.now.time < 0.5) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/scene/case_fixture.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
@@ -98,7 +99,7 @@ TEST_F(CaseFiles, TheResolvedFileLoadsToTheSameScene) {
 
 std::vector<std::string> shipped() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(GRANVOF_CASES_DIR)) {
+  for (const auto& entry : fs::directory_iterator(cases_directory())) {
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
@@ -108,7 +109,7 @@ std::vector<std::string> shipped() {
 class Shipped : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Shipped, LoadsAndReadsBack) {
-  const Scene scene = load_scene(fmt::format("{}/{}.toml", GRANVOF_CASES_DIR, GetParam()));
+  const Scene scene = load_scene(fmt::format("{}/{}.toml", cases_directory().string(), GetParam()));
   EXPECT_EQ(scene.name, GetParam());
   EXPECT_NE(scene.title, scene.name) << "a shipped case has a title";
   Scene again = parse_scene(scene.resolved, "resolved");
@@ -129,7 +130,7 @@ TEST(ShippedCases, AreThoseOfThePaperAndTheLadder) {
   for (const char* name : {"s1", "s2", "s1-loose", "s1-dense", "sw", "fw", "float-full-r08-nodrag",
                            "float-free-r02", "dam-break"}) {
     ASSERT_TRUE(std::count(names.begin(), names.end(), name)) << name;
-    const Scene scene = load_scene(fmt::format("{}/{}.toml", GRANVOF_CASES_DIR, name));
+    const Scene scene = load_scene(fmt::format("{}/{}.toml", cases_directory().string(), name));
     EXPECT_NE(scene.resolved.find("\npreset = \"paper\"\n"), std::string::npos) << name;
   }
 }
@@ -137,7 +138,7 @@ TEST(ShippedCases, AreThoseOfThePaperAndTheLadder) {
 // What `granvof-compare advise` found, beside the cases they are made of.
 TEST(ShippedCases, AdvisedOnesLoad) {
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(GRANVOF_CASES_DIR "/advised")) {
+  for (const auto& entry : fs::directory_iterator(cases_directory() / "advised")) {
     const Scene scene = load_scene(entry.path());
     EXPECT_EQ(scene.name, entry.path().stem().string());
     EXPECT_NE(scene.resolved, load_scene(scene.file.parent_path() / ".." /
@@ -150,7 +151,7 @@ TEST(ShippedCases, AdvisedOnesLoad) {
 
 // Table 1 and 2 of the paper, written down here a second time on purpose.
 TEST(ShippedCases, KeepThePapersNumbers) {
-  const std::string cases = GRANVOF_CASES_DIR;
+  const std::string cases = cases_directory();
   const Scene s1 = load_scene(cases + "/s1.toml");
   EXPECT_EQ(s1.solid, (Solid{2500, 0.8e-3, 0.9, 0.40}));
   EXPECT_EQ(s1.bed->box.upper[0], 0.0975);

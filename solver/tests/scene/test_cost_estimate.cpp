@@ -7,12 +7,13 @@
 
 #include "solver/scene/cost_estimate.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 
 namespace granvof::test {
 namespace {
 
 Scene shipped(const std::string& name, const std::vector<std::string>& set = {}) {
-  return load_scene(std::filesystem::path(GRANVOF_CASES_DIR) / (name + ".toml"), set);
+  return load_scene(cases_directory() / (name + ".toml"), set);
 }
 
 TEST(CostEstimate, IsWithinAFactorOfTwoOfTheStepsOfRealRuns) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/plausibility/plausibility.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/scene/case_fixture.hpp"
 
 namespace granvof::test {
@@ -164,7 +165,7 @@ TEST(Plausibility, TakesWhatIsLeftOutForMeant) {
 TEST(Plausibility, IsSilentOnShippedCases) {
   namespace fs = std::filesystem;
   int count = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(GRANVOF_CASES_DIR)) {
+  for (const auto& entry : fs::recursive_directory_iterator(cases_directory())) {
     if (entry.path().extension() != ".toml") continue;
     const Scene scene = load_scene(entry.path());
     std::vector<std::string> expected;

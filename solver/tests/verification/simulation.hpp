@@ -10,12 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/simulation.hpp"
 
 namespace granvof::test {
 
 inline Scene shipped_scene(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return load_scene(std::string(GRANVOF_CASES_DIR) + "/" + name + ".toml", overrides);
+  return load_scene(cases_directory().string() + "/" + name + ".toml", overrides);
 }
 
 // A measured number: a property of the test's record and a line that can be quoted.
@@ -30,7 +31,7 @@ void report(const std::string& name, Number value) {
 
 // Rows of a published series in cases/published, comments and the heading left out.
 inline std::vector<std::vector<double>> published(const std::string& file) {
-  std::ifstream in(std::string(GRANVOF_CASES_DIR) + "/published/" + file);
+  std::ifstream in(cases_directory().string() + "/published/" + file);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(in, line);) {
     if (line.empty() || !(std::isdigit(static_cast<unsigned char>(line[0])) || line[0] == '-')) continue;

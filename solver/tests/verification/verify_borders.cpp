@@ -11,6 +11,7 @@
 
 #include "solver/run/run_case.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
 #include "solver/tests/output/samples.hpp"
 
 namespace granvof {
@@ -22,7 +23,7 @@ nlohmann::json record_of(const std::string& scene, const std::vector<std::string
   options.out = directory.path() / "run";
   options.command = "test";
   options.progress = false;
-  run_case(load_scene(std::string(GRANVOF_CASES_DIR) + "/border/" + scene + ".toml", overrides), options);
+  run_case(load_scene(cases_directory().string() + "/border/" + scene + ".toml", overrides), options);
   std::ifstream file(options.out / "run.json");
   return nlohmann::json::parse(file);
 }
