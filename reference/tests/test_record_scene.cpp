@@ -144,9 +144,9 @@ std::string facts_of_failed(const granvof::Scene& scene) {
 
 }  // namespace
 
-// Beads so heavy that their contacts cannot bear them.
+// Contacts so stiff that reference.dt is too long for them.
 TEST(RecordScene, AFailureBeforeTheFirstStepIsAnEndThatIsWritten) {
-  const std::string facts = facts_of_failed(demvof::test::small({"tank.gravity=1e20", "time.unit=s"}));
+  const std::string facts = facts_of_failed(demvof::test::small({"reference.young=1e9"}));
   EXPECT_NE(facts.find("beads have left the tank"), std::string::npos) << facts;
 }
 
@@ -160,8 +160,7 @@ TEST(RecordScene, AnEndByLiggghtsIsAnEndThatIsWritten) {
 
 // OpenFOAM drops blanks and quotes from names, LIGGGHTS ends a word at a quote.
 TEST(RecordScene, AScratchFolderMayHaveAnyName) {
-  for (const char* name :
-       {"a b", " ", "a \" b", "it's", "one\ntwo", "$HOME", "a#b", "~", "\xc3\xa4", "a\\b"}) {
+  for (const char* name : {" ", "~", "a \"b\" it's\n$HOME #c \xc3\xa4\\d"}) {
     const granvof::test::TemporaryDirectory directory;
     demvof::RecordOptions options = options_in(directory.path());
     options.scratch = directory.path() / name;
