@@ -20,7 +20,7 @@ import h5py
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "solver/python"))
 
-from granvof_files import fields_of, is_there, json_of, required, toml_of, write_whole  # noqa: E402
+from granvof_files import fields_of, is_there, json_of, no_program, required, toml_of, write_whole  # noqa: E402
 
 RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
@@ -134,8 +134,8 @@ def select(runs, scenes):
 
 def program(build_dir):
     path = Path(build_dir).resolve() / "reference/demvof/demvof"
-    if not path.exists():
-        raise RecordError(f"{path} is missing; ci/setup-reference installs what it needs, `make reference` builds it")
+    if why := no_program(path, "ci/setup-reference installs what it needs, `make reference` builds it"):
+        raise RecordError(why)
     return path
 
 
@@ -285,7 +285,7 @@ def state_files(folder):
     taken as they are: that they are those that were written rests on the history of the repository alone, and is said so."""
     path = folder / "record.json"
     facts = facts_of(path)
-    if "files" in facts and is_sealed(path.read_text(encoding="utf-8")):
+    if "files" in facts and is_sealed(required(path).read_text(encoding="utf-8")):
         return False
     if "files" not in facts:
         facts["files"] = stated_files(folder)

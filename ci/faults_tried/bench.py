@@ -5,9 +5,10 @@ import random
 import shutil
 import signal
 import subprocess
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
+
+from granvof_files import no_program, toml_of
 
 SAMPLE = 4  # tries of an entry in a sample
 LONGEST_MESSAGE = 2000  # characters
@@ -32,7 +33,7 @@ class NotTried(Exception):
 
 def read_table(path, kinds):
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        table = toml_of(path)
     except (OSError, ValueError) as error:
         raise TableError(f"{path}: {' '.join(str(error).split())}") from error
     for kind, entries in table.items():
@@ -51,14 +52,15 @@ class Bench:
     sample: bool
     part: int = 0  # of so many, each of which does its share
     parts: int = 1
+    alone: bool = False  # of the kind that is tried just now this part does all
     chance: random.Random = field(default_factory=lambda: random.Random(1))  # the same tries every time
     made: int = 0
     seen: dict = field(default_factory=dict)  # what several tries have in common, by name
 
     def __post_init__(self):
         for program in (self.granvof, self.compare):
-            if not program.exists():
-                raise TableError(f"{program} is missing; `make build` builds it")
+            if why := no_program(program):
+                raise TableError(why)
 
     @property
     def granvof(self):
@@ -76,7 +78,7 @@ class Bench:
         tries = list(tries)
         if self.sample and len(tries) > sample:
             return self.chance.sample(tries, sample)
-        return tries[self.part::self.parts]
+        return tries if self.alone else tries[self.part::self.parts]
 
     def place(self):
         """A new empty directory."""

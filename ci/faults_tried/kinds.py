@@ -4,7 +4,10 @@ second is empty where it is."""
 import shutil
 
 from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, reading, scarce, surroundings, threads
-from faults_tried.bench import SAMPLE, NotTried, refused
+from faults_tried.bench import SAMPLE, NotTried, TableError, refused
+
+
+PROGRAMS = ("solver/granvof", "compare/granvof-compare", "reference/demvof/demvof")
 
 
 def bad_values(bench, entry):
@@ -41,8 +44,35 @@ def bad_files(bench, entry):
         yield f"{' '.join(entry['command'][:2])} of {entry['of']}, {name}", refused(ended)
 
 
+def no_programs(bench, entry):
+    """A build folder in which a program that is needed is none: an error that is said."""
+    tries = [(command, name, *way) for command in entry["commands"] for name in entry["programs"] for way in damage.of_entry(entry)]
+    for command, name, how, way in bench.some(tries, entry["sample"]):
+        place = bench.place()
+        for program in PROGRAMS:
+            (place / "build" / program).parent.mkdir(parents=True, exist_ok=True)
+            if program != name:
+                (place / "build" / program).symlink_to(bench.build / program)
+        shutil.copy(bench.granvof, place / "build" / name)
+        way(place / "build" / name, bench.chance)
+        (place / "out").mkdir()
+        ended = bench.call(bench.filled(command, programs=place / "build", work=place / "out"))
+        yield f"{' '.join(command[:2])}, {name} {how}", not_said(ended)
+        bench.drop(place / "any")
+
+
+def not_said(ended):
+    """As refused(); where a program has failed and no input is bad, exit code 1 will do."""
+    if ended is None or ended.returncode != 1:
+        return refused(ended)
+    return "" if ended.stderr.strip() and b"Traceback" not in ended.stderr + ended.stdout else f"it says {ended.stderr[-150:]!r}"
+
+
 def outputs(bench, entry):
-    """Output that cannot be written: no success."""
+    """Output that cannot be written: no success, which it is otherwise."""
+    whole = bench.call(bench.filled(entry["command"]))
+    if whole is None or whole.returncode != 0:
+        raise TableError(f"{' '.join(entry['command'])}: exit code {whole and whole.returncode} with an output that can be written")
     with open(entry["stdout"], "wb") as target:
         ended = bench.call(bench.filled(entry["command"]), stdout=target)
     yield (f"{' '.join(entry['command'][:2])} > {entry['stdout']}",
@@ -72,7 +102,7 @@ def locales(bench, entry):
 
 
 KINDS = {kind.__name__: kind for kind in (
-    bad_values, contradictions, bad_files, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
+    bad_values, contradictions, bad_files, no_programs, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
     interrupted.failing_calls, interrupted.signals_at_calls, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
     directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, hostile.hostile,
     hostile.odd_cases, hostile.own_files, orders.orders, orphans.orphans, orphans.ended_children, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

@@ -41,7 +41,7 @@ def orders(bench, entry):
         why = lost(before, tree_of(place))
         if not why and (ended is None or ended.returncode not in (1, 2)):
             why = "no end" if ended is None else f"exit code {ended.returncode}: {ended.stdout[-150:]!r}"
-        if not why and b"cannot" not in ended.stdout + ended.stderr and b"holds" not in ended.stdout + ended.stderr:
+        if not why and not any(word in ended.stdout + ended.stderr for word in (b"cannot", b"holds", b"is no directory")):
             why = f"it does not say why: {(ended.stdout + ended.stderr)[-150:]!r}"
         yield f"{name} ({way}), {json.dumps(more)}", why
         bench.drop(place / "any")

@@ -39,8 +39,8 @@ def wait_until(true, longest):
 
 
 def as_from_a_terminal():
-    """A shell's background job ignores these, and hands that on."""
-    for number in (signal.SIGINT, signal.SIGQUIT):
+    """A shell's background job ignores these, nohup SIGHUP, and both hand that on."""
+    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 

@@ -26,6 +26,7 @@ def core_seconds():
 def try_kind(kind, entries, bench):
     """(results, reasons why some were not tried, faults of the table, seconds, core-seconds) of one kind."""
     results, left_out, broken, begun, used = [], [], [], time.monotonic(), core_seconds()
+    bench.alone = kind in UNDIVIDED
     for entry in entries:
         try:
             results.extend(kinds.KINDS[kind](bench, entry))

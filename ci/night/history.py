@@ -6,6 +6,8 @@ import sqlite3
 from dataclasses import dataclass
 from pathlib import Path
 
+from granvof_files import is_there, required
+
 SCHEMA_VERSION = 1
 SCHEMA = """
 create table run (
@@ -94,11 +96,11 @@ class History:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
             self._open(path)
-        except sqlite3.Error as error:
+        except (sqlite3.Error, OSError) as error:
             raise ValueError(f"{path} is no history of the nightly run: {error}") from error
 
     def _open(self, path: Path) -> None:
-        self._db = sqlite3.connect(path, timeout=60)
+        self._db = sqlite3.connect(required(path) if is_there(path) else path, timeout=60)
         self._db.execute("pragma foreign_keys = on")
         version = self._db.execute("pragma user_version").fetchone()[0]
         if version == 0:

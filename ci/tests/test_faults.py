@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from faults_tried import damage, runs, scarce
-from faults_tried.bench import read_table
+from faults_tried import damage, parts, runs, scarce
+from faults_tried.bench import Bench, read_table
 from faults_tried.kinds import KINDS
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -94,6 +94,16 @@ def test_a_verdict_on_a_damaged_run_is_not_held(tmp_path):
     done = tried(tmp_path, granvof, '[[damaged_runs]]\ncase = "cases/s1.toml"\nfiles = ["series.csv"]\ndamages = ["half", "line_out"]\n',
                  "exit 0")
     assert done.returncode == 1 and "held     0" in done.stdout and "series.csv, half: exit code 0" in done.stdout
+
+
+def test_parts_beside_each_other_do_all_of_it(tmp_path, monkeypatch):
+    """Also of a kind that one part does alone."""
+    build = stand_in(tmp_path / "build", "exit 2")
+    for kind in ("orphans", "kills"):
+        monkeypatch.setitem(KINDS, kind, lambda bench, entry: ((str(number), "") for number in bench.some(range(7))))
+    benches = [Bench(build, ROOT, tmp_path, False, part, 2) for part in range(2)]
+    made = parts.all_of(["orphans", "kills"], {"orphans": [{}], "kills": [{}]}, benches)
+    assert [sorted(name for name, _ in results) for results, *_ in made] == [[str(number) for number in range(7)]] * 2
 
 
 # Without a lock, blind to errors, to damage and to what else is in its directory; a resumed run repeats rows.

@@ -55,10 +55,14 @@ class Engine:
         command = [str(compare), "run", "-", "--solver", str(solver), "--jobs", str(jobs)]
         if accounts:
             command += ["--accounts", str(accounts)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                        preexec_fn=ends_with_parent)
+        try:
+            self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                            preexec_fn=ends_with_parent)
+        except OSError as error:
+            raise EngineError(f"{compare} cannot be started: {error.strerror}") from error
         self.on_start = on_start
         self.waiting, self.lock = {}, threading.Lock()
+        self.said = None  # why it takes no more orders, once it has ended
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
 
@@ -81,6 +85,9 @@ class Engine:
         with self.lock:
             if order["id"] in self.waiting:
                 raise ValueError(f"two orders of the name {order['id']} at once")
+            if self.said is not None:
+                promised.set_exception(EngineError(self.said))
+                return promised
             self.waiting[order["id"]] = promised
             try:
                 self.process.stdin.write(json.dumps(order) + "\n")
@@ -89,23 +96,30 @@ class Engine:
                 pass  # the reader says why
         return promised
 
+    def _take(self, told):
+        if "started" in told:
+            self.on_start(told["started"])
+            return
+        with self.lock:
+            promised = self.waiting.pop(told["id"])
+        promised.set_result(Ending(**told))
+
     def make(self, order):
         return self.submit(order).result()
 
     def _read(self):
-        for line in self.process.stdout:
-            told = json.loads(line)
-            if "started" in told:
-                self.on_start(told["started"])
-                continue
-            with self.lock:
-                promised = self.waiting.pop(told["id"])
-            promised.set_result(Ending(**told))
-        said = self.process.stderr.read().strip()
+        said = ""
+        try:
+            for line in self.process.stdout:
+                self._take(json.loads(line))
+        except (ValueError, KeyError, TypeError):  # no engine, or one that was killed within a line
+            self.process.terminate()
+            said = f"{self.process.args[0]} does not speak as a run engine: {line.strip()[:200]}"
+        said = self.process.stderr.read().strip() or said or "the run engine has ended"
         with self.lock:
-            left, self.waiting = self.waiting, {}
+            left, self.waiting, self.said = self.waiting, {}, said
         for promised in left.values():
-            promised.set_exception(EngineError(said or "the run engine has ended"))
+            promised.set_exception(EngineError(said))
 
 
 def order(identity, case, directory, assignments=(), **more):

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "compare/input/is_there.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/output_error.hpp"
 
@@ -43,7 +44,7 @@ std::optional<double> Bands::of(std::string_view scene, std::string_view column)
 
 Bands read_bands(const std::filesystem::path& records) {
   const auto file = records / "bands.json";
-  if (!std::filesystem::exists(file)) return {};
+  if (!is_there(file)) return {};
   const auto differences = nlohmann::json::parse(read_file(file), nullptr, false);
   if (!differences.is_array()) throw OutputError("read", file, "it is not a JSON list");
   Bands bands;

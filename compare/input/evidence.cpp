@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compare/input/is_there.hpp"
 #include "solver/output/digest.hpp"
 #include "solver/output/extract.hpp"
 #include "solver/output/fields_file.hpp"
@@ -107,7 +108,7 @@ void require_digest(const fs::path& file, const std::string& stated) {
 void require_fields(const fs::path& directory, const std::optional<StatedFields>& stated, double end) {
   const auto file = directory / "fields.h5";
   if (!stated) {
-    if (fs::exists(file)) throw OutputError("use", file, "nothing is said of it");
+    if (is_there(file)) throw OutputError("use", file, "nothing is said of it");
     return;
   }
   if (stated->sha256) require_digest(file, *stated->sha256);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compare/input/is_there.hpp"
 #include "solver/scene/printable.hpp"
 
 namespace granvof::compare {
@@ -38,18 +39,28 @@ LoadedRun load_record(const std::filesystem::path& directory, const Scene& scene
   return loaded;
 }
 
+// In the order of their names; none where nothing has the name.
+std::vector<std::filesystem::path> folders_in(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> folders;
+  if (!is_there(directory)) return folders;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+// A series without its record.json is a record that has lost it: it is refused, not left out.
+bool holds_record(const std::filesystem::path& folder) {
+  return is_there(folder / "record.json") || is_there(folder / "series.csv");
+}
+
 }  // namespace
 
 std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::string_view name,
                                     const Scene& scene) {
   std::vector<std::filesystem::path> variants;
-  std::error_code missing;
-  for (const auto& entry : std::filesystem::directory_iterator(records / name, missing))
-    if (entry.path().extension() != ".part" && std::filesystem::exists(entry.path() / "record.json"))
-      variants.push_back(entry.path());
-  std::sort(variants.begin(), variants.end());
-  if (variants.empty() && std::filesystem::exists(records / name / "record.json"))
-    variants.push_back(records / name);
+  for (const auto& folder : folders_in(records / name))
+    if (folder.extension() != ".part" && holds_record(folder)) variants.push_back(folder);
+  if (variants.empty() && holds_record(records / name)) variants.push_back(records / name);
   std::vector<LoadedRun> loaded;
   loaded.reserve(variants.size());
   for (const auto& variant : variants) loaded.push_back(load_record(variant, scene));
@@ -59,10 +70,8 @@ std::vector<LoadedRun> load_records(const std::filesystem::path& records, std::s
 std::vector<LoadedRun> load_peers(const std::filesystem::path& records, std::string_view case_name,
                                   const Scene& scene) {
   std::vector<std::filesystem::path> programs;
-  std::error_code missing;
-  for (const auto& entry : std::filesystem::directory_iterator(records / "peers", missing))
-    if (std::filesystem::exists(entry.path() / case_name / "record.json")) programs.push_back(entry.path());
-  std::sort(programs.begin(), programs.end());
+  for (const auto& folder : folders_in(records / "peers"))
+    if (holds_record(folder / case_name)) programs.push_back(folder);
   std::vector<LoadedRun> loaded;
   loaded.reserve(programs.size());
   for (const auto& program : programs) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "compare/input/is_there.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/fields_file.hpp"
 #include "solver/output/output_error.hpp"
@@ -167,7 +168,7 @@ Curve Run::curve(std::string_view column) const {
 
 std::vector<double> Run::field_times() const {
   const auto file = directory / "fields.h5";
-  return std::filesystem::exists(file) ? read_field_times(file) : std::vector<double>();
+  return is_there(file) ? read_field_times(file) : std::vector<double>();
 }
 
 std::optional<CellFields> Run::solid_fraction_at(double time) const {
@@ -181,7 +182,7 @@ std::optional<CellFields> Run::solid_fraction_at(double time) const {
 LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, const Scene& scene) {
   LoadedRun loaded;
   loaded.directory = directory;
-  if (!std::filesystem::exists(directory / "run.json")) {
+  if (!is_there(directory / "run.json")) {
     loaded.reason = fmt::format("no run in {}", directory.string());
     return loaded;
   }

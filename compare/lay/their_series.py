@@ -68,7 +68,7 @@ def text_of(path):
     try:
         if required(path).stat().st_size > MOST_BYTES:
             raise SeriesError(f"{path}: larger than {MOST_BYTES >> 20} MB")
-        data = path.read_bytes()
+        data = required(path).read_bytes()
     except OSError as error:
         raise SeriesError(f"{path}: {error.strerror}") from error
     marks = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -92,12 +92,17 @@ struct RunCommand::Options {
 
   // All of a file first: what is wrong with it is said before anything is run.
   void submit_file(Engine& engine) {
-    std::ifstream file(plan);
-    if (!file) throw std::runtime_error(fmt::format("run: {} cannot be read", plan));
-    for (std::string text; std::getline(file, text);)
-      if (auto order = read(text)) engine.submit(*std::move(order));
+    std::istringstream lines(read_file(plan));
+    bool any = false;
+    for (std::string text; std::getline(lines, text);) {
+      if (auto order = read(text)) {
+        engine.submit(*std::move(order));
+        any = true;
+      }
+    }
     if (only > line)
       throw std::runtime_error(fmt::format("run: --only {}: {} has {} lines", only, plan, line));
+    if (!any) throw std::runtime_error(fmt::format("run: there is no run in {}", plan));
   }
 };
 

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 from complaint import complain, given_path  # noqa: E402
-from granvof_files import json_of, write_json  # noqa: E402
+from granvof_files import json_of, required, write_json  # noqa: E402
 from report import style  # noqa: E402
 from report.results import Damaged, read_json  # noqa: E402
 from report.style import plt  # noqa: E402
@@ -318,7 +318,7 @@ def keep(options, beside):
 def shrink(source, target):
     """A copy of at most 900 pixels in 256 colours."""
     from PIL import Image
-    image = Image.open(source).convert("RGB")
+    image = Image.open(required(source)).convert("RGB")
     width = min(image.width, 900)
     image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
     image.quantize(256, method=Image.Quantize.FASTOCTREE).save(target, optimize=True)  # keeps the colours of the lines

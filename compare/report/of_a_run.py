@@ -8,7 +8,7 @@ import jinja2
 import numpy as np
 
 import granvof
-from granvof_files import write_whole
+from granvof_files import required, write_whole
 from report import snapshots, style
 from report.embedded import encoded
 from report.film import film
@@ -76,7 +76,7 @@ def show(directory):
         plots.append((drawn, f"Solid fraction and colour of the grains, {plane}; black line: alpha = 0.5."))
     for drawn in snapshots.plan_plot(results, name, out):
         plots.append((drawn, "From above: depth of the solid, of grains without pores."))
-    figures = [{"data": encoded((out / f"{plot}.png").read_bytes()), "caption": caption} for plot, caption in plots]
+    figures = [{"data": encoded(required(out / f"{plot}.png").read_bytes()), "caption": caption} for plot, caption in plots]
     moving = film(entry)
     if moving:
         write_whole(out / "film.apng", moving)

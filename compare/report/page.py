@@ -4,7 +4,7 @@ from pathlib import Path
 
 import jinja2
 
-from granvof_files import write_whole
+from granvof_files import required, write_whole
 from report import figures, kept_results, overview, style
 from report.embedded import encoded
 from report.film import film
@@ -47,7 +47,7 @@ def render(results, plots, sections=(), kept=None):
         damaged=results.damaged,
         sections=sections,
         plots=[{"name": name, "caption": figures.caption(name),
-                "data": encoded((results.directory / "plots" / f"{name}.png").read_bytes())} for name in plots])
+                "data": encoded(required(results.directory / "plots" / f"{name}.png").read_bytes())} for name in plots])
 
 
 def plot_word(name):

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <string>
 
+#include "compare/input/bands.hpp"
 #include "compare/input/records.hpp"
 #include "compare/output/write.hpp"
 #include "compare/tests/evaluated_rows.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/output_error.hpp"
 #include "solver/tests/cases_directory.hpp"
 
 namespace granvof::compare {
@@ -24,6 +26,24 @@ TEST_F(Evaluate, OneDamagedSeedIsAnErrorOfTheRow) {
   ASSERT_EQ(evaluation.results.size(), 2u);
   EXPECT_EQ(evaluation.unexpected(), 2);  // the row, and the record by its name
   EXPECT_EQ(evaluation.results[1].check.id, "evidence." + cut.parent_path().string());
+}
+
+// Nor is a seed left out of the mean that has lost its record, or whose record leads nowhere.
+TEST_F(Evaluate, ASeedThatHasLostItsRecordIsAnErrorOfTheRow) {
+  write_record("seed1", 0.1, scene_.reference_hash);
+  write_record("seed2", 0.1, scene_.reference_hash);
+  const auto record = paths_.records / "s1/seed2/record.json";
+  std::filesystem::remove(record);
+  EXPECT_EQ(load_records(paths_.records, "s1", scene_).at(1).state, RunState::refused);
+  std::filesystem::create_symlink("nothing", record);
+  EXPECT_EQ(load_records(paths_.records, "s1", scene_).at(1).state, RunState::refused);
+}
+
+TEST_F(Evaluate, BandsThatLeadNowhereAreAnError) {
+  std::filesystem::create_directories(paths_.records);
+  EXPECT_TRUE(read_bands(paths_.records).empty());
+  std::filesystem::create_symlink("nothing", paths_.records / "bands.json");
+  EXPECT_THROW(read_bands(paths_.records), OutputError);
 }
 
 // A run of another length is compared over what both cover.

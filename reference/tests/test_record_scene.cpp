@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "reference/tests/small_case.hpp"
+#include "solver/output/output_error.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/tests/temporary_directory.hpp"
 
@@ -121,27 +123,89 @@ TEST(RecordScene, ASignalEndsItAndItSaysSo) {
   }
 }
 
-TEST(RecordScene, AFailureBeforeTheFirstStepIsAnEndThatIsWritten) {
-  const granvof::test::TemporaryDirectory directory;
+namespace {
+
+demvof::RecordOptions options_in(const fs::path& directory) {
   demvof::RecordOptions options;
-  options.out = directory.path() / "run";
-  options.scratch = directory.path() / "scratch";
-  std::ofstream(options.scratch) << "a file where a folder should be made";
-  EXPECT_EQ(demvof::record_scene(demvof::test::small(), options), 1);
-  const std::string facts = text_of(options.out / "run.json");
-  EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
-  EXPECT_NE(facts.find("scratch"), std::string::npos) << facts;
+  options.out = directory / "run";
+  options.scratch = directory / "scratch";
+  return options;
 }
 
-// LIGGGHTS ends the program where it finds an error, as it does in what it takes for a command with too many
-// words.
-TEST(RecordScene, AnEndByLiggghtsIsAnEndThatIsWritten) {
+// What run.json says of a scene that fails before its first step.
+std::string facts_of_failed(const granvof::Scene& scene) {
   const granvof::test::TemporaryDirectory directory;
-  demvof::RecordOptions options;
-  options.out = directory.path() / "run";
-  options.scratch = directory.path() / "a \" b";
-  EXPECT_EQ(demvof::record_scene(demvof::test::small(), options), 1);
+  const demvof::RecordOptions options = options_in(directory.path());
+  EXPECT_EQ(demvof::record_scene(scene, options), 1);
   const std::string facts = text_of(options.out / "run.json");
   EXPECT_NE(facts.find("\"state\": \"failed\""), std::string::npos) << facts;
+  return facts;
+}
+
+}  // namespace
+
+// Contacts so stiff that reference.dt is too long for them.
+TEST(RecordScene, AFailureBeforeTheFirstStepIsAnEndThatIsWritten) {
+  const std::string facts = facts_of_failed(demvof::test::small({"reference.young=1e9"}));
+  EXPECT_NE(facts.find("beads have left the tank"), std::string::npos) << facts;
+}
+
+// LIGGGHTS ends the program where it finds an error, as it does in a restitution that no case file may have.
+TEST(RecordScene, AnEndByLiggghtsIsAnEndThatIsWritten) {
+  granvof::Scene scene = demvof::test::small();
+  scene.reference->bead_restitution = 2.0;
+  const std::string facts = facts_of_failed(scene);
   EXPECT_NE(facts.find("LIGGGHTS ended the program with exit code 1: ERROR"), std::string::npos) << facts;
+}
+
+// OpenFOAM drops blanks and quotes from names, LIGGGHTS ends a word at a quote.
+TEST(RecordScene, AScratchFolderMayHaveAnyName) {
+  for (const char* name : {" ", "~", "a \"b\" it's\n$HOME #c \xc3\xa4\\d"}) {
+    const granvof::test::TemporaryDirectory directory;
+    demvof::RecordOptions options = options_in(directory.path());
+    options.scratch = directory.path() / name;
+    EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.002"}), options), 0) << name;
+    EXPECT_FALSE(fs::exists(options.scratch)) << name << ": it made the folder, and nothing is left in it";
+  }
+}
+
+TEST(RecordScene, AScratchFolderThatCannotBeUsedIsRefusedAndNothingIsWritten) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options = options_in(directory.path());
+  const fs::path file = directory.path() / "file", too_long(std::string(300, 'a'));
+  std::ofstream(file) << "a file where a folder should be made";
+  for (const fs::path& scratch : {file, file / "below", fs::path("/proc/nowhere"),
+                                  directory.path() / too_long, directory.path() / "new" / too_long}) {
+    options.scratch = scratch;
+    EXPECT_THROW(demvof::record_scene(demvof::test::small(), options), granvof::OutputError) << scratch;
+    EXPECT_FALSE(fs::exists(options.out)) << scratch;
+    EXPECT_FALSE(fs::exists(directory.path() / "new")) << scratch;
+  }
+}
+
+TEST(RecordScene, ARunDirectoryThatIsRefusedLeavesNoScratchFolder) {
+  const granvof::test::TemporaryDirectory directory;
+  const demvof::RecordOptions options = options_in(directory.path());
+  std::ofstream(options.out) << "a file where a run should be made";
+  EXPECT_THROW(demvof::record_scene(demvof::test::small(), options), granvof::OutputError);
+  EXPECT_FALSE(fs::exists(options.scratch));
+}
+
+// A recording of the same scene is none either: it took a day.
+TEST(RecordChute, AnothersDirectoryIsRefusedBeforeTheWork) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options = options_in(directory.path());
+  const granvof::Scene scene = demvof::test::small({"time.end=0.002"});
+  ASSERT_EQ(demvof::record_scene(scene, options), 0);
+  const std::string recorded = text_of(options.out / "run.json");
+  EXPECT_THROW(demvof::record_chute(scene, options), granvof::OutputError);
+  EXPECT_EQ(text_of(options.out / "run.json"), recorded);
+  const fs::path mine = directory.path() / "mine";
+  fs::create_directory(mine);
+  std::ofstream(mine / "series.csv") << "mine";
+  for (const fs::path& out : {mine, mine / "series.csv"}) {
+    options.out = out;
+    EXPECT_THROW(demvof::record_chute(scene, options), granvof::OutputError) << out;
+  }
+  EXPECT_EQ(text_of(mine / "series.csv"), "mine");
 }

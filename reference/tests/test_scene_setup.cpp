@@ -100,6 +100,18 @@ TEST(SceneSetup, ABedThatCannotBePackedIsRefused) {
   EXPECT_NE(why.find("reference.packing is 0.99, a bed that cannot be packed"), std::string::npos) << why;
 }
 
+// What would end LIGGGHTS, or never end, is refused before anything is written.
+TEST(SceneSetup, WhatTheBeadsCannotBeIsRefused) {
+  for (const auto& [given, why] : std::vector<std::pair<std::string, std::string>>{
+           {"reference.young=1e25", "reference.young is 1e+25, allowed: <= 1e+09 Pa"},
+           {"reference.bead_restitution=0.05", "reference.bead_restitution is 0.05, allowed: > 0.05"},
+           {"reference.fluid_dt=1e20", "reference.fluid_dt is 1e+20 s, allowed: at most"},
+           {"reference.hold=1e6", "reference.hold and time.end are 1e+06 s, allowed: at most"},
+           {"reference.packing=1e-9", "the bed holds 8.95e-07 beads"}}) {
+    EXPECT_NE(refusal({given}).find(why), std::string::npos) << given << ": " << refusal({given});
+  }
+}
+
 TEST(SceneSetup, MoreBeadsThanCanBeComputedAreRefused) {
   const std::string why = refusal({"solid.diameter=1e-9"});
   EXPECT_NE(why.find("beads of 1e-09 m"), std::string::npos) << why;

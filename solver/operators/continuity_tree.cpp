@@ -1,7 +1,6 @@
 #include "solver/operators/continuity_tree.hpp"
 
 #include <array>
-#include <ranges>
 
 #include "solver/operators/flux_balance.hpp"
 
@@ -60,7 +59,8 @@ void ContinuityTree::close(const Boundary& boundary, const FaceField& flux_s, Fa
   gain_.fill(0.0);
   subtract_divergence(grid_, 1.0, flux_s, gain_);
   subtract_divergence(grid_, 1.0, flux_c, gain_);
-  for (const Step& step : std::views::reverse(steps_)) {
+  for (auto at = steps_.rbegin(); at != steps_.rend(); ++at) {
+    const Step& step = *at;
     const double gain = gain_[step.cell];
     flux_c[step.direction][step.face] += step.sign * grid_.h[step.direction] * gain;
     if (step.next >= 0) gain_[step.next] += gain;

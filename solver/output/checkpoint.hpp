@@ -12,12 +12,20 @@
 
 namespace granvof {
 
+// The rows of series.csv at that moment: run.json, which is written after the checkpoint, may know less of
+// them.
+struct RowsSoFar {
+  std::int64_t count = 0;
+  std::string sha256;  // of the header and these rows; empty where nothing is known
+};
+
 // What a program hands over; names are free, arrays in any layout the program reads back itself.
 struct CheckpointView {
   double time = 0.0;  // [s]
   std::map<std::string, std::span<const double>> arrays;
   std::map<std::string, double> scalars;
   std::map<std::string, std::int64_t> counters;
+  RowsSoFar rows;
 };
 
 // The same, read back.
@@ -26,6 +34,7 @@ struct Checkpoint {
   std::map<std::string, std::vector<double>> arrays;
   std::map<std::string, double> scalars;
   std::map<std::string, std::int64_t> counters;
+  RowsSoFar rows;
 
   // Lookups that throw OutputError naming the file and what is missing or has another size.
   const std::vector<double>& array(const std::string& name, std::size_t size) const;

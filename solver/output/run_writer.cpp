@@ -157,6 +157,8 @@ ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, cons
   SeriesFile::check_unchanged(directory / series_name, existing->series);
   SeriesFile::rows_until(directory / series_name, writer.columns_,
                          up_to(scene.times.row_times, checkpoint.time));
+  SeriesFile::check_unchanged(directory / series_name,
+                              {checkpoint.rows.count, {}, {}, checkpoint.rows.sha256});
   FieldsFile::check_instants(directory, up_to(scene.times.field_times, checkpoint.time));
   writer.resume_time_ = writer.checkpoint_time_ = checkpoint.time;
   writer.record_.start_date = existing->record.start_date;
@@ -213,7 +215,10 @@ void RunWriter::write_checkpoint(const CheckpointView& state, const RunProgress&
   series_->flush_to_disk();
   fields_->check_still_there();
   fields_->bring_up_to_date();
-  granvof::write_checkpoint(checkpoint_path(), scene_, state);
+  CheckpointView with_rows = state;
+  const SeriesFacts rows = series_->facts();
+  with_rows.rows = {rows.rows, rows.sha256};
+  granvof::write_checkpoint(checkpoint_path(), scene_, with_rows);
   checkpoint_time_ = state.time;
   write_record(progress, {});
 }

@@ -27,6 +27,21 @@ def required(path):
     return path
 
 
+def no_program(path, made_by="`make build` builds it"):
+    """Why a file is no program that can be started, in a sentence; empty where it is one."""
+    path = Path(path)
+    try:
+        with open(required(path), "rb") as file:
+            begins = file.read(4)
+    except FileNotFoundError:
+        return f"{path} is missing; {made_by}"
+    except OSError as error:
+        return f"{path} is no program: {error.strerror or error}; {made_by}"
+    if not os.access(path, os.X_OK) or not begins.startswith((b"\x7fELF", b"#!")):
+        return f"{path} is no program; {made_by}"
+    return ""
+
+
 def json_of(path):
     """What a JSON file holds; raises as required() and the parser do."""
     return json.loads(required(Path(path)).read_text(encoding="utf-8"))

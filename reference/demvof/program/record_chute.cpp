@@ -8,9 +8,11 @@
 #include "reference/demvof/beads/mpi_session.hpp"
 #include "reference/demvof/bulk_friction/chute.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
+#include "reference/demvof/program/scratch_folder.hpp"
 #include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/digest.hpp"
+#include "solver/output/output_error.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/stop_signals.hpp"
 
@@ -45,12 +47,28 @@ granvof::FilesWritten files_of(const ChuteResult& result, const std::string& ser
   return files;
 }
 
-int record_in_this_process(const granvof::Scene& scene, const RecordOptions& options) {
+// Before hours of work: the directory is new or empty, or holds an earlier result of the same scene.
+void require_own(const std::filesystem::path& out, const granvof::Scene& scene) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(out)) return;
+  const auto refuse = [&](const std::string& why) {
+    throw granvof::OutputError("write to", out, why + "; give an empty or new directory");
+  };
+  if (!fs::is_directory(out)) refuse("it is no directory");
+  if (fs::is_empty(out)) return;
+  const auto earlier = granvof::read_existing_run(out / "run.json");
+  if (!earlier || granvof::read_file(out / "run.json").find("\"mu_s\"") == std::string::npos)
+    refuse("it holds files but no chute of demvof");
+  if (earlier->scene != scene.name) refuse("it is a chute of the scene " + earlier->scene);
+}
+
+int record_in_this_process(const granvof::Scene& scene, const RecordOptions& options,
+                           const ScratchFolder& scratch) {
   const MpiSession session;
   const auto clock = std::chrono::steady_clock::now();
   const std::string date = granvof::iso_date_now();
   ChuteSettings chute;
-  const BeadSettings beads = bead_settings(scene, options.scratch.string());
+  const BeadSettings beads = bead_settings(scene, scratch.name().string());
   chute.diameter = beads.diameter;
   chute.density = beads.density;
   chute.gravity = beads.gravity;
@@ -94,10 +112,12 @@ int record_in_this_process(const granvof::Scene& scene, const RecordOptions& opt
 
 int record_chute(const granvof::Scene& scene, const RecordOptions& options) {
   check_beads(scene);
+  require_own(options.out, scene);
   granvof::listen_to_stop_signals();  // nothing is written before the end, and nothing is then
-  const WorkEnd done = work_in_own_process([&] { return record_in_this_process(scene, options); });
+  const ScratchFolder scratch(options.scratch);
+  const WorkEnd done = work_in_own_process([&] { return record_in_this_process(scene, options, scratch); });
   if (done.code) return *done.code;
-  fmt::print(stderr, "demvof: {}: {}\n", scene.name, reason_of(done, options.scratch));
+  fmt::print(stderr, "demvof: {}: {}\n", scene.name, reason_of(done, scratch.name()));
   return 1;
 }
 

@@ -16,6 +16,7 @@
 #include "reference/demvof/program/progress.hpp"
 #include "reference/demvof/program/recording.hpp"
 #include "reference/demvof/program/scene_setup.hpp"
+#include "reference/demvof/program/scratch_folder.hpp"
 #include "reference/demvof/program/snapshot.hpp"
 #include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/output_error.hpp"
@@ -44,6 +45,7 @@ class Session {
       : scene_(scene),
         gridded_(with_reference_grid(scene)),
         options_(options),
+        scratch_(options.scratch),
         line_(options.progress, scene.name),
         writer_(granvof::RunWriter::fresh(options.out, gridded_, {"demvof", options.command, 1, 1, {}},
                                           monitor_columns(), options.force)) {}
@@ -62,6 +64,7 @@ class Session {
   const Scene& scene_;
   const Scene gridded_;
   const RecordOptions& options_;
+  const ScratchFolder scratch_;
   ProgressLine line_;
   granvof::RunWriter writer_;
   granvof::RunProgress progress_;
@@ -77,7 +80,7 @@ void Session::bring_up_to_date() {
 
 Column Session::prepare(const std::vector<double>& floor) {
   line_.say("preparing the column");
-  Column column = prepare_column(column_settings(scene_, options_.seed, floor, options_.scratch.string()));
+  Column column = prepare_column(column_settings(scene_, options_.seed, floor, scratch_.name().string()));
   progress_.monitors["seed"] = options_.seed;
   progress_.monitors["beads"] = static_cast<double>(column.position.size() / 3);
   progress_.monitors["floor_beads"] = static_cast<double>(floor.size() / 3);
@@ -123,7 +126,7 @@ void Session::say_if_missed(double packing) {
 }
 
 void Session::record() {
-  const std::string scratch = options_.scratch.string();
+  const std::string scratch = scratch_.name().string();
   const std::vector<double> floor = floor_beads(scene_, options_.seed);
   BeadState beads;
   beads.position = prepare(floor).position;
@@ -201,7 +204,7 @@ int Session::go() {
   }
   const WorkEnd done = work_in_own_process([this] { return work(); });
   if (done.code) return *done.code;
-  const std::string reason = reason_of(done, options_.scratch);
+  const std::string reason = reason_of(done, scratch_.name());
   fmt::print(stderr, "demvof: {}: {}; {}\n", scene_.name, reason, nothing_to_resume);
   writer_.note_end_of_copy(reason);
   return 1;

@@ -9,6 +9,7 @@
 #include "reference/demvof/preparation/rough_floor.hpp"
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/printable.hpp"
+#include "solver/scene/scales.hpp"
 
 namespace demvof {
 
@@ -23,6 +24,10 @@ constexpr double loosest_pile = 0.55;  // below it a bed cannot be at rest: it i
 constexpr double thinnest_slice = 2.0;
 
 constexpr double densest_pile = 0.66;  // spheres at random reach 0.64, a little more between walls [-]
+// What LIGGGHTS takes of beads in SI units.
+constexpr double stiffest = 1e9;            // [Pa]
+constexpr double least_restitution = 0.05;  // [-]
+constexpr double most_steps = 1e9;          // weeks for a thousand beads
 // Their contacts alone would take more than 10 GB, and their steps years.
 constexpr double most_beads = 1e7;
 constexpr std::size_t longest_name = 1000;  // of a file, in a message [bytes]
@@ -87,11 +92,33 @@ void check_packing(const Scene& scene) {
     refuse(scene, fmt::format("reference.packing is {}, a bed that cannot be packed, allowed: <= {}",
                               scene.reference->packing, densest_pile));
   }
-  if (const double count = bead_count(scene); count > most_beads) {
+  const double count = bead_count(scene);
+  if (count < 1.0) {
+    refuse(scene,
+           fmt::format("the bed holds {:.3g} beads of {:.6g} m (reference.packing, solid.diameter), allowed: "
+                       "at least one",
+                       count, bead_diameter(scene)));
+  }
+  if (count > most_beads) {
     refuse(scene,
            fmt::format("{:.3g} beads of {:.6g} m (solid.diameter, reference.coarse_graining), allowed: "
                        "at most {:g} beads",
                        count, bead_diameter(scene), most_beads));
+  }
+}
+
+void check_times(const Scene& scene) {
+  const granvof::ReferenceSettings& r = *scene.reference;
+  if (const double all = r.hold + scene.times.end; all > most_steps * r.dt) {
+    refuse(scene,
+           fmt::format("reference.hold and time.end are {:g} s, allowed: at most {:g} s, {:g} steps of "
+                       "reference.dt",
+                       all, most_steps * r.dt, most_steps));
+  }
+  if (const double time = granvof::scales_of(scene).time(); r.fluid_dt > time) {
+    refuse(scene,
+           fmt::format("reference.fluid_dt is {} s, allowed: at most {:.3g} s, in which the scene changes",
+                       r.fluid_dt, time));
   }
 }
 
@@ -102,10 +129,18 @@ void check_beads(const Scene& scene) {
   if (scene.reference->young < 5e6) {
     refuse(scene, fmt::format("reference.young is {}, allowed: >= 5e6 Pa", scene.reference->young));
   }
+  const granvof::ReferenceSettings& r = *scene.reference;
+  if (r.young > stiffest)
+    refuse(scene, fmt::format("reference.young is {}, allowed: <= {:g} Pa", r.young, stiffest));
+  if (r.bead_restitution <= least_restitution) {
+    refuse(scene, fmt::format("reference.bead_restitution is {}, allowed: > {}", r.bead_restitution,
+                              least_restitution));
+  }
 }
 
 void check_scene(const Scene& scene) {
   check_beads(scene);
+  check_times(scene);
   if (!scene.bed) refuse(scene, "it has no [bed]");
   if (scene.bed->slope != 90.0) refuse(scene, fmt::format("bed.slope is {}, allowed: 90", scene.bed->slope));
   check_packing(scene);

@@ -40,6 +40,27 @@ TEST_F(RunDirectory, TheDraftOfARunKilledInItsFirstMomentIsInNobodysWay) {
     EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
 }
 
+// Killed between the checkpoint and run.json, which then knows nothing of the last row.
+TEST_F(RunDirectory, ARowThatOnlyTheCheckpointKnowsIsHeldToItToo) {
+  {
+    auto killed = fresh();
+    write_row(killed, 0.0);
+    killed.write_checkpoint(state(0.0), progress(0.0));
+    const std::string earlier = read_file(run / "run.json");
+    write_row(killed, 0.1);
+    killed.write_checkpoint(state(0.1), progress(0.1));
+    write_file_atomically(run / "run.json", earlier);
+  }
+  scene.times.field_times.clear();
+  EXPECT_NO_THROW(resume());
+  std::string series = read_file(run / "series.csv");
+  const auto last = series.rfind("0.01,");  // dt of the last row
+  series.replace(last, 4, "0.02");
+  write_file_atomically(run / "series.csv", series);
+  const auto why = message_of<OutputError>([&] { resume(); });
+  EXPECT_NE(why.find("it was changed since"), std::string::npos) << why;
+}
+
 TEST_F(RunDirectory, OnlyItsEndAndLaterOutputMayChangeOnResume) {
   scene.resolved = "[time]\nend = 1\n\n[numerics]\ncfl = 0.4\n\n[output]\nfield_times = [0, 1]\n";
   write_run(5);
