@@ -25,6 +25,9 @@ ABOUT = {
     "solver/linear": "multigrid, CG, BiCGSTAB",
     "solver/closures": "one law, one header",
     "solver/closures/drag": "laws of drag, a list",
+    "solver/closures/friction": "friction coefficients, a list",
+    "solver/closures/radial_distribution": "g0, a list",
+    "solver/closures/kinetic_transport": "what flying grains carry, a list",
     "solver/operators": "one term, one file",
     "solver/output": "run directory, scalars",
     "solver/run": "time step, monitors, energy",
@@ -47,7 +50,8 @@ ABOUT = {
 # What a part may include of the others: the libraries `scene` and `output` know nothing of the solver, and are all of it that compare
 # knows; demvof also shares the closure of the drag. The first that a part's name begins with holds.
 MAY_INCLUDE = {
-    "solver/scene": ("solver/scene", "solver/model", "solver/closures/drag"),  # what its keys choose from
+    "solver/scene": ("solver/scene", "solver/model", "solver/closures/drag", "solver/closures/friction",
+                     "solver/closures/radial_distribution", "solver/closures/kinetic_transport"),  # what its keys choose from
     "solver/plausibility": ("solver/scene", "solver/model", "solver/closures"),  # pure functions, in headers
     "solver/output": ("solver/scene", "solver/plausibility"),
     "solver": ("solver",),

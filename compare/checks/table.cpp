@@ -209,6 +209,12 @@ std::string beside(const TomlEntry& entry, const std::string& id, const PlannedR
   entry.fail("against", fmt::format("no [[run]] beside '{}' has the 'set' of '{}'", id, like.id));
 }
 
+std::vector<const PlannedRun*> pointers_to(const std::vector<PlannedRun>& runs) {
+  std::vector<const PlannedRun*> all;
+  for (const PlannedRun& run : runs) all.push_back(&run);
+  return all;
+}
+
 // Those that a check names, and those beside them.
 std::vector<const PlannedRun*> runs_of(const TomlEntry& entry, const std::vector<std::string>& named,
                                        const std::vector<PlannedRun>& runs) {
@@ -219,6 +225,28 @@ std::vector<const PlannedRun*> runs_of(const TomlEntry& entry, const std::vector
   return made;
 }
 
+// A check of every run that some other check reads: no run is judged without it.
+constexpr std::string_view every_run = "*";
+
+bool is_of_every_run(const TomlEntry& check) {
+  return check.texts("run") == std::vector<std::string>{std::string(every_run)};
+}
+
+// Runs that the rows read, each as often as it is read most often.
+std::vector<PlannedRun> runs_read(const std::vector<PlannedRun>& runs, const std::vector<Check>& checks) {
+  std::vector<PlannedRun> read;
+  for (PlannedRun run : runs) {
+    std::optional<Frequency> most;
+    for (const Check& check : checks)
+      if (check.run == run.id || check.parameters.against == run.id)
+        most = most ? std::min(*most, check.frequency) : check.frequency;
+    if (!most) continue;
+    run.frequency = *most;
+    read.push_back(std::move(run));
+  }
+  return read;
+}
+
 std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<std::string>& named,
                                     const std::vector<const PlannedRun*>& made,
                                     const std::vector<std::optional<double>>& instants,
@@ -226,6 +254,8 @@ std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<st
   std::vector<Expected> failures;
   if (!check.has("expected_failure")) return failures;
   for (const TomlEntry& entry : check.entry_or_entries("expected_failure")) {
+    if (is_of_every_run(check) && !entry.has("run"))
+      entry.fail("", "the key 'run' is missing: of which runs of all?");
     failures.push_back(read_expected(entry, named, instants, causes));
     for (const std::string& id : failures.back().runs)
       if (std::ranges::none_of(made, [&](const PlannedRun* run) { return run->id == id; }))
@@ -234,7 +264,8 @@ std::vector<Expected> read_failures(const TomlEntry& check, const std::vector<st
   return failures;
 }
 
-// A row for each of its references, instants and runs, and of the runs beside those.
+// A row for each of its references, instants and runs, and of the runs beside those; `runs` are those that
+// there are, of a check of every run those that others read.
 std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedRun>& runs,
                               const std::vector<Cause>& causes) {
   std::vector<std::string_view> keys{"run",      "metric",    "reference",        "relation", "tolerance",
@@ -252,15 +283,23 @@ std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedR
   if (entry.has("relation"))
     check.relation = entry.one_of("relation", {Relation::equal, Relation::at_most, Relation::at_least});
   if (entry.has("asserted")) check.asserted = entry.truth("asserted");
-  check.frequency = read_frequency(entry);
+  const bool of_every_run = is_of_every_run(entry);
+  if (!of_every_run)
+    check.frequency = read_frequency(entry);
+  else if (entry.has("frequency"))
+    entry.fail("frequency", "a check of every run is made of each as often as another one is");
   if (entry.has("label")) check.label = entry.text("label");
   std::vector<std::optional<double>> instants{std::nullopt};
   if (metric->needs.at) {
     const std::vector<double> given = entry.numbers("at");
     instants.assign(given.begin(), given.end());
   }
-  const std::vector<std::string> named = entry.texts("run");
-  const std::vector<const PlannedRun*> made = runs_of(entry, named, runs);
+  std::vector<std::string> named = entry.texts("run");
+  if (of_every_run) {
+    named.clear();
+    for (const PlannedRun& run : runs) named.push_back(run.id);
+  }
+  const std::vector<const PlannedRun*> made = of_every_run ? pointers_to(runs) : runs_of(entry, named, runs);
   if (check.parameters.against) find_run(entry, "against", *check.parameters.against, runs);
   const std::vector<Expected> failures = read_failures(entry, named, made, instants, causes);
   if (!failures.empty() && !check.asserted)
@@ -274,6 +313,7 @@ std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedR
         const bool named_run = std::ranges::find(named, run->id) != named.end();
         if (!named_run && read.kind == ReferenceKind::regression) continue;
         Check shared = check;
+        if (of_every_run) shared.frequency = run->frequency;
         if (!named_run) {
           shared.frequency = std::max(check.frequency, run->frequency);
           if (check.parameters.against)
@@ -313,13 +353,19 @@ Table read_root(const toml::table& root, std::string_view name) {
       entry.fail("key", fmt::format("'{}' is given twice", table.causes.back().key));
   }
   std::set<std::string> used;
-  for (const TomlEntry& entry : top.entries("check"))
-    for (Check& check : read_check(entry, table.runs, table.causes)) {
-      if (check.expected_failure) used.insert(check.expected_failure->cause);
-      if (!checks.insert(check.id).second)
-        entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
-      table.checks.push_back(std::move(check));
+  const auto add_checks_of = [&](bool every_one, const std::vector<PlannedRun>& of) {
+    for (const TomlEntry& entry : top.entries("check")) {
+      if (is_of_every_run(entry) != every_one) continue;
+      for (Check& check : read_check(entry, of, table.causes)) {
+        if (check.expected_failure) used.insert(check.expected_failure->cause);
+        if (!checks.insert(check.id).second)
+          entry.fail("", fmt::format("'{}' is checked twice; give the second a 'label'", check.id));
+        table.checks.push_back(std::move(check));
+      }
     }
+  };
+  add_checks_of(false, table.runs);
+  add_checks_of(true, runs_read(table.runs, table.checks));
   for (const TomlEntry& entry : top.entries("cause"))
     if (!used.contains(entry.text("key"))) entry.fail("key", "no expected failure has this cause");
   if (table.checks.empty()) throw TableError(fmt::format("{}: there is no [[check]]", name));

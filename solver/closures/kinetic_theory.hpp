@@ -1,4 +1,5 @@
-// Kinetic theory of the grains: pressure (11), viscosities (20), (21), conductivity (22), dissipation (23).
+// Kinetic theory of the grains: pressure (11), viscosities (20), (21), dissipation (23). Conductivity (22) is
+// in kinetic_transport/.
 //
 // All take f_s in [0, f_s,max], Theta >= 0 [m2/s2], e in [0, 1], the caller's g0 (eq (19)), and SI units.
 #pragma once
@@ -20,29 +21,14 @@ inline double kinetic_viscosity(double f_s, double theta, double e, double g0, d
 
 inline constexpr double bulk_to_shear_viscosity = 5.0 / 3.0;  // zeta_s^K / mu_s^K, eqs (20), (21)
 
-// zeta_s^K [Pa s], eq (21).
-inline double kinetic_bulk_viscosity(double f_s, double theta, double e, double g0, double rho_s,
-                                     double d_s) {
-  return bulk_to_shear_viscosity * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
-}
-
-inline constexpr double conductivity_to_viscosity = 5.0 / 2.0;  // kappa_s^K / mu_s^K, eqs (20), (22)
-
-// kappa_s^K [Pa s], eq (22); the flux uses f_s kappa_s^K (model correction 11).
-inline double conductivity(double f_s, double theta, double e, double g0, double rho_s, double d_s) {
-  return conductivity_to_viscosity * kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s);
-}
-
-// gamma_s^K / Theta^(3/2) [kg/m4]: the collisional part of eq (23), which does not depend on div u_s.
+// gamma_s^K / Theta^(3/2) [kg/m4] of eq (23), of grains that keep their distances.
 inline double collisional_dissipation_rate(double f_s, double e, double g0, double rho_s, double d_s) {
   return 12.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * std::numbers::inv_sqrtpi / d_s;
 }
 
-// gamma_s^K [W/m3], eq (23).
-inline double dissipation(double f_s, double theta, double e, double g0, double rho_s, double d_s,
-                          double div_u_s) {
-  return collisional_dissipation_rate(f_s, e, g0, rho_s, d_s) * theta * std::sqrt(theta) -
-         3.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * theta * div_u_s;
+// The other part over Theta [kg/m s3]: grains that move apart collide less. div_u_s = div u_s [1/s].
+inline double expansion_dissipation_rate(double f_s, double e, double g0, double rho_s, double div_u_s) {
+  return -3.0 * (1.0 - e * e) * f_s * f_s * rho_s * g0 * div_u_s;
 }
 
 // The positive root w of a w^2 + b w = c; a >= 0, c >= 0, not both a and b zero. Written so that nothing

@@ -1,9 +1,10 @@
 // Loops over the values of a box, rows in parallel, x innermost and vectorised. What they sum up or compare
 // is in reduce.hpp.
 //
-// A body captures by value and writes only what belongs to its own index (gather, never scatter). Threads
-// start only where a loop is long enough to pay for them; `threads` comes from the run, there is no global
-// state.
+// A body captures by value and writes only what belongs to its own index (gather, never scatter). Every row
+// has a copy of it: of an object that others see, what a body writes might change what it has captured, and
+// no compiler vectorises that. Threads start only where a loop is long enough to pay for them; `threads`
+// comes from the run, there is no global state.
 #pragma once
 
 #include <cstddef>
@@ -60,8 +61,9 @@ inline void for_each(const Layout& l, const Range& r, Body&& body) {
 #pragma omp parallel for schedule(static) if (parallel)
   for (int row = 0; row < rows; ++row) {
     const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
+    const auto of_row = body;
 #pragma omp simd
-    for (int i = 0; i < length; ++i) body(start + i);
+    for (int i = 0; i < length; ++i) of_row(start + i);
   }
 }
 

@@ -42,7 +42,8 @@ inline auto sum_rows(const Range& r, Row&& row) {
   using Sum = decltype(row(0, 0));
   const int ny = r.upper[1] - r.lower[1], rows = ny * (r.upper[2] - r.lower[2]);
   std::array<Sum, sum_blocks> partial{};
-  const auto add_up = [&](int block) {
+  // A function of its own for one thread and for several: two copies of a loop may be rounded in two ways.
+  const auto add_up = [&](int block) __attribute__((noinline)) {
     const auto begin = [=](int b) { return static_cast<int>(static_cast<long>(rows) * b / sum_blocks); };
     Sum sum{};
     for (int n = begin(block); n < begin(block + 1); ++n)
@@ -71,9 +72,10 @@ inline double sum_over(const Layout& l, const Range& r, Body&& body) {
   const int length = r.upper[0] - r.lower[0];
   return sum_rows(r, [&](int j, int k) {
     const std::ptrdiff_t start = l.index(r.lower[0], j, k);
+    const auto of_row = body;
     double line = 0.0;
 #pragma omp simd reduction(+ : line)
-    for (int i = 0; i < length; ++i) line += body(start + i);
+    for (int i = 0; i < length; ++i) line += of_row(start + i);
     return line;
   });
 }
@@ -174,10 +176,11 @@ inline double max_over(const Layout& l, const Range& r, double floor, Body&& bod
   const int length = r.upper[0] - r.lower[0];
   return of_all(l, of_process::max_rows(r, floor, [&](int j, int k) {
                   const std::ptrdiff_t start = l.index(r.lower[0], j, k);
+                  const auto of_row = body;
                   double line = floor, odd = 0.0;
 #pragma omp simd reduction(max : line) reduction(+ : odd)
                   for (int i = 0; i < length; ++i) {
-                    const double v = body(start + i);
+                    const double v = of_row(start + i);
                     line = v > line ? v : line;
                     odd += v == v ? 0.0 : 1.0;
                   }
@@ -215,7 +218,8 @@ inline auto sum_rows(const Layout& l, Body&& body) {
 template <typename Body>
 inline auto sum_rows(const Layout& l, const Range& r, Body&& body) {
   return of_all(l, of_process::sum_rows(r, [&](int j, int k) {
-                  return body(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
+                  const auto of_row = body;
+                  return of_row(l.index(r.lower[0], j, k), r.upper[0] - r.lower[0]);
                 }));
 }
 

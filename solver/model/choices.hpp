@@ -1,19 +1,23 @@
 // One list of the closures that may stand for each other: whoever asks which there are, what they are called
 // in a case file or where they come from, asks it. A closure of such a list states
-//   static constexpr ClosureFacts facts{word, source};
+//   static constexpr ClosureFacts facts{word, source, keys that it alone reads};
 // and a new one is its own header and one entry of the list.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace granvof::closures {
 
 struct ClosureFacts {
-  std::string_view word;    // value of its key in a case file
-  std::string_view source;  // who gave it
+  std::string_view word;                    // value of its key in a case file
+  std::string_view source;                  // who gave it
+  std::array<std::string_view, 2> reads{};  // keys of parameters that are read for no other part of the model
+
+  constexpr bool reads_key(std::string_view key) const { return reads[0] == key || reads[1] == key; }
 };
 
 template <typename... Closures>
@@ -44,6 +48,16 @@ struct Choices {
     return body(First{});
   }
 };
+
+// The words of those that read a parameter, in quotes, with "or" between them.
+template <typename List>
+std::string words_that_read(std::string_view key) {
+  std::string words;
+  for (const ClosureFacts& closure : List::facts)
+    if (closure.reads_key(key))
+      words.append(words.empty() ? "\"" : " or \"").append(closure.word).append("\"");
+  return words;
+}
 
 // One of a list; the first unless it is said.
 template <typename List>

@@ -74,30 +74,32 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   strain_.update(grid_, u_strain, box_);
   if (scene_.numerics.bed_surface == BedSurface::part_cells) free_faces_of_part_cells(rheology, u_strain);
   boundary_.fill_scalar(strain_.normal_squared);
-  const double eta = scene_.model.contact_friction ? scene_.solid.friction : 0.0;
   const double n = scene_.contact.regularisation;
-  const FrictionLaw friction =
-      scene_.model.contact_friction ? scene_.model.friction_law : FrictionLaw::constant;
+  FrictionLaw friction = scene_.model.friction_law;
+  Solid grains = scene_.solid;
+  if (!scene_.model.contact_friction) {
+    friction = {};
+    grains.friction = 0.0;
+  }
   const Contact contact = scene_.contact;
-  const double mu_2 = contact.fast_friction;
-  const double rho_s = scene_.solid.density, d_s = scene_.solid.diameter;
   const bool by_rate = scene_.model.shear_dilatancy && scene_.model.dilatancy_friction &&
                        scene_.model.critical_packing == CriticalPacking::by_rate;
   const auto viscosity_at = [=](const Contacts& sum, double norm) {
     const double share = 1.0 / sum.count, pressure = share * sum.pressure, mu_c = share * sum.fluid;
-    double law = eta, dilatancy = share * sum.dilatancy;
-    if (friction == FrictionLaw::inertial)
-      law = closures::inertial_friction(pressure, norm, eta, mu_2, contact.inertial_number, rho_s, d_s);
-    else if (friction == FrictionLaw::viscous)
-      law = closures::viscous_friction(pressure, norm, eta, mu_2, contact.viscous_number, mu_c);
+    const double of_law = friction.with([&](auto law) {
+      return law.coefficient({pressure, norm, mu_c}, grains, contact);
+    });
+    double dilatancy = share * sum.dilatancy;
     if (by_rate) {
-      const double mixed = closures::mixed_inertial_number(2.0 * norm, pressure, rho_s, d_s, mu_c);
+      const double mixed =
+          closures::mixed_inertial_number(2.0 * norm, pressure, grains.density, grains.diameter, mu_c);
       dilatancy += contact.dilatancy_slope *
                    (contact.critical_solid_fraction - closures::critical_packing(mixed, contact));
     }
-    double coefficient = std::max(std::max(law, share * sum.least) + dilatancy, 0.0);
+    double coefficient = std::max(std::max(of_law, share * sum.least) + dilatancy, 0.0);
     if (sum.drag > 0.0)
-      coefficient += closures::agitation_friction(share * sum.drag, pressure, norm, rho_s, d_s);
+      coefficient +=
+          closures::agitation_friction(share * sum.drag, pressure, norm, grains.density, grains.diameter);
     return closures::friction_viscosity(pressure, coefficient, n, norm);
   };
   const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),

@@ -151,8 +151,8 @@ class LocalBalances {
   LocalBalance operator()(std::ptrdiff_t c) const {
     const double f = f_s_[c], e = e_[c];
     double collisions = laws_.dissipation_rate(f, e, rho_s_, d_s_);
-    if (wall_loss_) collisions += wall_loss_[c] * f / laws_.f_max * rho_s_ * laws_.g0(f);
-    const double expansion = -3.0 * (1.0 - e * e) * f * f * rho_s_ * laws_.g0(f) * div_[c];
+    if (wall_loss_) collisions += wall_loss_[c] * f / laws_.of_g0.f_max * rho_s_ * laws_.g0(f);
+    const double expansion = closures::expansion_dissipation_rate(f, e, laws_.g0(f), rho_s_, div_[c]);
     return {collisions, expansion, work_ ? laws_.pressure(f, e, rho_s_) * div_[c] : 0.0, beta_[c]};
   }
 

@@ -31,14 +31,18 @@ class SolidFractionFlux {
   }
 
  private:
+  // 1 for a flow from the lower side, 0 from the upper one, 1/2 at rest; one choice in another is none that a
+  // loop over cells is vectorised with.
+  static double share_of_lower(double u) { return 0.5 + (u > 0.0 ? 0.5 : 0.0) - (u < 0.0 ? 0.5 : 0.0); }
+
   static void upwind(const Grid& grid, const Field& f_s, const Field& u, int d, const Range& faces,
                      Field& face) {
     const double *f = f_s.data(), *v = u.data();
     double* out = face.data();
     const std::ptrdiff_t s = grid.stride(d);
     for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-      const double w = v[c], lower = f[c - s], upper = f[c];
-      out[c] = w > 0.0 ? lower : (w < 0.0 ? upper : 0.5 * (upper + lower));
+      const double of_lower = share_of_lower(v[c]);
+      out[c] = of_lower * f[c - s] + (1.0 - of_lower) * f[c];
     });
   }
 
@@ -56,7 +60,9 @@ class SolidFractionFlux {
       const double reach = 0.5 * std::max(1.0 - std::fabs(w) * courant_per_speed, 0.0);
       const double from_lower = f[c - s] + reach * slope(f[c - s] - f[c - 2 * s], middle);
       const double from_upper = f[c] - reach * slope(f[c + s] - f[c], middle);
-      out[c] = w > 0.0 ? from_lower : (w < 0.0 ? from_upper : 0.5 * (f[c] + f[c - s]));
+      const double of_lower = share_of_lower(w);
+      const double upwind = of_lower * from_lower + (1.0 - of_lower) * from_upper;
+      out[c] = w == 0.0 ? 0.5 * (f[c] + f[c - s]) : upwind;
     });
   }
 

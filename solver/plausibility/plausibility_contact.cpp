@@ -1,5 +1,7 @@
 // Rows of [contact]: the law's parameters, and those of choices that are not made.
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "solver/plausibility/plausibility_rows.hpp"
 #include "solver/scene/scales.hpp"
@@ -13,6 +15,10 @@ double bearing_stiffness(const Scene& s) {
   return s.solid.density * s.gravity * bed_height(s) / std::pow(half, s.contact.exponent);
 }
 
+std::string friction_laws_that_read(std::string_view key) {
+  return "model.friction_law = " + closures::words_that_read<closures::FrictionLaws>(key);
+}
+
 }  // namespace
 
 std::vector<Row> contact_rows() {
@@ -22,9 +28,11 @@ std::vector<Row> contact_rows() {
   const auto model = [](auto member) { return [member](const Scene& s) { return member(s.model); }; };
   const auto shear = model([](const Model& m) { return m.shear_dilatancy; });
   const auto arrest = model([](const Model& m) { return m.thin_layer_arrest; });
-  const auto inertial = model([](const Model& m) { return m.friction_law == FrictionLaw::inertial; });
-  const auto viscous = model([](const Model& m) { return m.friction_law == FrictionLaw::viscous; });
-  const auto either = [=](const Scene& s) { return arrest(s) || inertial(s) || viscous(s); };
+  const auto friction_law = model([](const Model& m) { return m.friction_law.facts(); });
+  const auto law_reads = [=](std::string_view key) {
+    return [=](const Scene& s) { return friction_law(s).reads_key(key); };
+  };
+  const auto fast = [=](const Scene& s) { return arrest(s) || law_reads("contact.fast_friction")(s); };
   const auto by_rate = model(
       [](const Model& m) { return m.shear_dilatancy && m.critical_packing == CriticalPacking::by_rate; });
   const auto dilatancy = model([](const Model& m) { return m.dilatancy_pressure; });
@@ -72,17 +80,17 @@ std::vector<Row> contact_rows() {
           "contact.dilatancy_rate", [](const Contact& c) { return c.dilatancy_rate; }, by_rate,
           "model.shear_dilatancy and model.critical_packing = \"by-rate\""),
       idle(
-          "contact.viscous_number", [](const Contact& c) { return c.viscous_number; }, viscous,
-          "model.friction_law = \"viscous\""),
+          "contact.viscous_number", [](const Contact& c) { return c.viscous_number; },
+          law_reads("contact.viscous_number"), friction_laws_that_read("contact.viscous_number")),
       idle(
           "contact.stop_length", [](const Contact& c) { return c.stop_length; }, arrest,
           "model.thin_layer_arrest"),
       idle(
-          "contact.fast_friction", [](const Contact& c) { return c.fast_friction; }, either,
-          "model.friction_law = \"inertial\" or \"viscous\", or model.thin_layer_arrest"),
+          "contact.fast_friction", [](const Contact& c) { return c.fast_friction; }, fast,
+          friction_laws_that_read("contact.fast_friction") + ", or model.thin_layer_arrest"),
       idle(
-          "contact.inertial_number", [](const Contact& c) { return c.inertial_number; }, inertial,
-          "model.friction_law = \"inertial\""),
+          "contact.inertial_number", [](const Contact& c) { return c.inertial_number; },
+          law_reads("contact.inertial_number"), friction_laws_that_read("contact.inertial_number")),
       idle(
           "contact.dilatancy_factor", [](const Contact& c) { return c.dilatancy_factor; }, dilatancy,
           "model.dilatancy_pressure"),

@@ -104,13 +104,14 @@ void complete_materials(Completion& c) {
     }
   });
   c.rule({"contact.fast_friction", "solid.friction", "model"}, [&] {
-    if ((c.s.model.friction_law != FrictionLaw::constant || c.s.model.thin_layer_arrest) &&
+    constexpr std::string_view key = "contact.fast_friction";
+    if ((c.s.model.friction_law.facts().reads_key(key) || c.s.model.thin_layer_arrest) &&
         contact.fast_friction < c.s.solid.friction) {
-      c.refuse("contact.fast_friction",
-               fmt::format("at least solid.friction = {}, with friction_law = \"inertial\" or "
-                           "\"viscous\", or thin_layer_arrest "
+      c.refuse(std::string(key),
+               fmt::format("at least solid.friction = {}, with friction_law = {}, or thin_layer_arrest "
                            "(model.preset = \"{}\")",
-                           c.s.solid.friction, word_of(c.d.preset)));
+                           c.s.solid.friction, closures::words_that_read<closures::FrictionLaws>(key),
+                           word_of(c.d.preset)));
     }
   });
   c.rule({"contact.critical_solid_fraction", "contact.solid_fraction_min", "contact.solid_fraction_max",

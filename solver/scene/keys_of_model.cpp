@@ -15,12 +15,12 @@ Words<closures::Chosen<List>> words_of() {
   return words;
 }
 
-// Their sources, with commas between them.
+// Their sources, with semicolons between them.
 template <typename List>
 std::string sources_of() {
   std::string text;
   for (const closures::ClosureFacts& facts : List::facts)
-    text.append(text.empty() ? "" : ", ").append(facts.source);
+    text.append(text.empty() ? "" : "; ").append(facts.source);
   return text;
 }
 
@@ -92,28 +92,21 @@ std::vector<Key> model_keys() {
       key("model.dilatancy_pressure", "", any, of(&Model::dilatancy_pressure), "P_s^EF, (14)."),
       key("model.kinetic_viscosity", "", any, of(&Model::kinetic_viscosity),
           "mu_s^K and zeta_s^K, (20), (21)."),
-      came_later(choice("model.radial_distribution",
-                        Words<RadialDistribution>{{"paper", RadialDistribution::paper},
-                                                  {"jamming", RadialDistribution::jamming}},
+      came_later(choice("model.radial_distribution", words_of<closures::RadialDistributions>(),
                         of(&Model::radial_distribution),
-                        "g0: (19), or that of spheres that jam at contact.solid_fraction_max (Chialvo and "
-                        "Sundaresan 2013).")),
-      came_later(choice("model.kinetic_transport",
-                        Words<KineticTransport>{{"collisional", KineticTransport::collisional},
-                                                {"with-streaming", KineticTransport::with_streaming}},
+                        "g0: " + sources_of<closures::RadialDistributions>() +
+                            "; the latter of spheres that jam at contact.solid_fraction_max.")),
+      came_later(choice("model.kinetic_transport", words_of<closures::KineticTransports>(),
                         of(&Model::kinetic_transport),
-                        "mu_s^K and kappa_s^K: what collisions hand over, (20), (22), or with what grains "
-                        "carry between them (Syamlal et al. 1993).")),
+                        "mu_s^K and kappa_s^K, " + sources_of<closures::KineticTransports>() +
+                            ": what collisions hand over, or with what grains carry between them.")),
       came_later(key("model.correlated_collisions", "", any, of(&Model::correlated_collisions),
                      "Dense collisions dissipate less, by a correlation length (Jenkins 2007).")),
       key("model.contact_friction", "", any, of(&Model::contact_friction), "tau_s^E, (17)."),
-      choice("model.friction_law",
-             Words<FrictionLaw>{{"constant", FrictionLaw::constant},
-                                {"inertial", FrictionLaw::inertial},
-                                {"viscous", FrictionLaw::viscous}},
-             of(&Model::friction_law),
-             "Friction coefficient: solid.friction (the paper), or mu(I), which it is at rest (Jop et al. "
-             "2006), or likewise mu(I_v), of grains that a viscous liquid stops (Boyer et al. 2011)."),
+      choice("model.friction_law", words_of<closures::FrictionLaws>(), of(&Model::friction_law),
+             "Friction coefficient, " + sources_of<closures::FrictionLaws>() +
+                 ": solid.friction, or mu(I), which it is at rest, or likewise mu(I_v), of grains that a "
+                 "viscous liquid stops."),
       came_later(choice("model.packing",
                         Words<Packing>{{"uniform", Packing::uniform}, {"carried", Packing::carried}},
                         of(&Model::packing),

@@ -12,7 +12,11 @@
 #include <vector>
 
 #include "solver/closures/drag/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
+#include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/model/fluid.hpp"
+#include "solver/model/grains.hpp"
 
 namespace granvof {
 
@@ -71,37 +75,6 @@ struct Side {
 
 enum SideIndex { left = 0, right = 1, bottom = 2, top = 3, front = 4, back = 5 };
 
-// --- materials ---------------------------------------------------------------------------------------
-
-// A case without grains has no [solid]; the defaults then stand in, so that laws stay finite at f_s = 0.
-struct Solid {
-  double density = 1000.0;   // rho_s [kg/m3], > 0
-  double diameter = 1e-3;    // d_s [m], > 0
-  double restitution = 0.9;  // e0 [-], in [0, 1]
-  double friction = 0.0;     // eta_s = tan(theta_s) [-], >= 0
-  bool operator==(const Solid&) const = default;
-};
-
-// Parameters of the enduring contact, eqs (13)-(17); the defaults are the paper's.
-struct Contact {
-  double stiffness = 1e8;              // K [Pa]
-  double exponent = 1.5;               // chi [-]
-  double dilatancy_factor = 0.28;      // a' [-]
-  double dilatancy_exponent = 0.58;    // delta [-]
-  double dense_solid_fraction = 0.60;  // f_s0 of (15) [-]
-  double solid_fraction_min = 0.57;    // f_s,min, random loose packing [-]
-  double solid_fraction_max = 0.63;    // f_s,max [-]
-  double regularisation = 1e5;         // n of (17) [s]
-  double fast_friction = 0.643;        // mu_2 of mu(I), tan(32.76 degrees): glass beads, Jop et al. 2006 [-]
-  double inertial_number = 0.279;      // I_0 of mu(I), likewise [-]
-  double stop_length = 1.65;           // L of h_stop in grain diameters, likewise [-]
-  double critical_solid_fraction = 0.582;  // f_c, packing under slow shear: glass beads, Pailha 2009 [-]
-  double dilatancy_slope = 4.09;           // K_psi = d tan(psi) / d f_p, likewise [-]
-  double dilatancy_rate = 1.0;    // a of the critical packing by rate of shear: Boyer et al. 2011 [-]
-  double viscous_number = 0.005;  // I_v at which mu(I_v) is half way to mu_2: Boyer et al. 2011 [-]
-  bool operator==(const Contact&) const = default;
-};
-
 // --- geometry ----------------------------------------------------------------------------------------
 
 struct Box {
@@ -132,26 +105,19 @@ struct Gate {
 
 // --- what is modelled --------------------------------------------------------------------------------
 
-// Friction coefficient of (17): eta_s alone (the paper), or from eta_s at rest to mu_2 at speed by the
-// inertial number, or by the viscous one.
-enum class FrictionLaw { constant, inertial, viscous };
-
 // The solid fraction at which grains touch: f_s,min everywhere (the paper), or what their bed was prepared
 // at, carried with them.
 enum class Packing { uniform, carried };
 
-// beta_c: (8), (9) as printed, or a law without a jump.
+// Each of a list: beta_c, the friction coefficient of (17), g0 of (19), and what mu_s^K and kappa_s^K hold.
 using closures::DragLaw;
+using closures::FrictionLaw;
+using closures::KineticTransport;
+using closures::RadialDistribution;
 
 // The packing that shear drives a bed to: contact.critical_solid_fraction, or less of it the faster it
 // shears.
 enum class CriticalPacking { constant, by_rate };
-
-// g0: (19), or that of spheres up to jamming, see closures/radial_distribution.hpp.
-enum class RadialDistribution { paper, jamming };
-
-// mu_s^K and kappa_s^K: what collisions hand over, (20) and (22), or what flying grains carry too.
-enum class KineticTransport { collisional, with_streaming };
 
 enum class TemperatureModel { transported, algebraic, off };
 
@@ -164,11 +130,11 @@ struct Model {
   bool pressure_work = true;       // -P_s^K div u_s in (7), see correction 2 of the model
   bool dilatancy_pressure = true;  // P_s^EF, eq (14)
   bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
-  RadialDistribution radial_distribution = RadialDistribution::paper;
-  KineticTransport kinetic_transport = KineticTransport::collisional;
+  RadialDistribution radial_distribution;
+  KineticTransport kinetic_transport;
   bool correlated_collisions = false;  // dissipate less in dense flow, collisions.hpp
   bool contact_friction = true;        // tau_s^E, eq (17)
-  FrictionLaw friction_law = FrictionLaw::constant;
+  FrictionLaw friction_law;
   Packing packing = Packing::uniform;
   bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
   bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
@@ -184,7 +150,7 @@ struct Model {
   bool carries_packing() const { return packing == Packing::carried || shear_dilatancy; }
   // A law asks for the fluid's viscosity between the grains.
   bool has_viscous_contacts() const {
-    return viscous_contact_pressure || friction_law == FrictionLaw::viscous ||
+    return viscous_contact_pressure || closures::depends_on_pore_viscosity(friction_law) ||
            (shear_dilatancy && critical_packing == CriticalPacking::by_rate);
   }
   bool operator==(const Model&) const = default;

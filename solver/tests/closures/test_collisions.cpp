@@ -23,8 +23,8 @@ TEST(CorrelationLength, ValueAndLimits) {
 TEST(CorrelationLength, LogSlopeIsTheDerivative) {
   Collisions laws;
   laws.correlated = true;
-  for (const auto radial : {RadialDistribution::paper, RadialDistribution::jamming}) {
-    laws.radial = radial;
+  for (std::size_t law = 0; law < RadialDistributions::facts.size(); ++law) {
+    laws.radial = RadialDistribution(law);
     const auto log_length = [&](double f) { return std::log(laws.correlation(f, 0.3)); };
     for (const double f : {0.1, 0.5, 0.58, 0.61})
       EXPECT_NEAR(laws.correlation_log_slope(f, 0.3), test::derivative(log_length, f, 1e-5), 1e-5) << f;
@@ -35,7 +35,7 @@ TEST(CorrelationLength, LogSlopeIsTheDerivative) {
 TEST(Streaming, ViscosityAndConductivityAreThePrintedSums) {
   const double e = 0.7, rho_s = 2500.0, d_s = 1e-3, theta = 4e-4, root = std::sqrt(theta * std::numbers::pi);
   Collisions laws;
-  laws.transport = KineticTransport::with_streaming;
+  laws.transport = KineticTransport::of<TransportWithStreaming>();
   for (const double f : {0.05, 0.3, 0.55}) {
     const double g0 = laws.g0(f), pi = std::numbers::pi;
     const double mu = rho_s * d_s * root *
@@ -55,7 +55,7 @@ TEST(Streaming, ViscosityAndConductivityAreThePrintedSums) {
 // (20), for sticky grains either.
 TEST(Streaming, Limits) {
   Collisions laws, paper;
-  laws.transport = KineticTransport::with_streaming;
+  laws.transport = KineticTransport::of<TransportWithStreaming>();
   const auto per_grain = [](const Collisions& l, double f) { return l.viscosity(f, 1.0, 0.9, 1.0, 1.0) / f; };
   EXPECT_NEAR(per_grain(laws, 1e-6), std::sqrt(std::numbers::pi) / (6.0 * 2.1), 1e-4);
   EXPECT_LT(per_grain(paper, 1e-6), 1e-5);
@@ -69,15 +69,15 @@ TEST(Streaming, Limits) {
 
 TEST(Collisions, AreThePapersUnlessAScenesChoicesSayOtherwise) {
   const Collisions paper{Contact{}};
-  EXPECT_EQ(paper.g0(0.5), radial_distribution(0.5, 0.63));
+  EXPECT_EQ(paper.g0(0.5), RadialPaper::value(0.5, {0.63}));
   EXPECT_EQ(paper.correlation(0.6, 0.1), 1.0);
   EXPECT_EQ(paper.conductivity_to_viscosity(0.5, 0.7), conductivity_to_viscosity);
   Scene scene;
   scene.solid.friction = 0.5;
-  scene.model.radial_distribution = RadialDistribution::jamming;
+  scene.model.radial_distribution = RadialDistribution::of<RadialJamming>();
   const Collisions chosen(scene);
-  EXPECT_EQ(chosen.g0(0.5), radial_distribution_jamming(0.5, 0.63, jamming_amplitude(0.5)));
-  EXPECT_EQ(chosen.g0_slope(0.5), radial_distribution_jamming_slope(0.5, 0.63, jamming_amplitude(0.5)));
+  EXPECT_EQ(chosen.g0(0.5), RadialJamming::value(0.5, {0.63, jamming_amplitude(0.5)}));
+  EXPECT_EQ(chosen.g0_slope(0.5), RadialJamming::slope(0.5, {0.63, jamming_amplitude(0.5)}));
 }
 
 // Correlated collisions leave the dense-flow law of (15) as it is: Theta of a steady shear is L times larger,
@@ -99,8 +99,8 @@ TEST(CorrelatedCollisions, DensePressureOfASteadyShearIsThatOfTheDenseFlowLaw) {
 TEST(CorrelatedCollisions, PressureDoesNotFallAndItsSlopeIsTheDerivative) {
   SolidLaw law(2500.0, Contact{}, true);
   law.collisions.correlated = true;
-  for (const auto radial : {RadialDistribution::paper, RadialDistribution::jamming}) {
-    law.collisions.radial = radial;
+  for (std::size_t place = 0; place < RadialDistributions::facts.size(); ++place) {
+    law.collisions.radial = RadialDistribution(place);
     const GrainsOfCell cell{1e-4, 0.3, 0.0, 0.57, 0.05};
     const auto pressure = [&](double f) { return solid_pressure(f, cell, law).value; };
     double previous = 0.0;

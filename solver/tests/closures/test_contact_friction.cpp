@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/contact_friction.hpp"
+#include "solver/closures/friction/laws.hpp"
 
 namespace granvof::closures {
 namespace {
@@ -53,7 +54,8 @@ TEST(ContactFriction, VanishesWithoutPressureOrFriction) {
 
 // Glass beads of Jop et al. 2006.
 double mu(double p, double norm) {
-  return inertial_friction(p, norm, 0.38, 0.643, 0.279, 2500.0, 5e-4);
+  const Solid beads{.density = 2500.0, .diameter = 5e-4, .friction = 0.38};
+  return FrictionInertial::coefficient({p, norm}, beads, {.fast_friction = 0.643, .inertial_number = 0.279});
 }
 
 TEST(InertialFriction, Value) {

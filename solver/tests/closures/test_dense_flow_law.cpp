@@ -10,7 +10,7 @@
 
 #include "solver/closures/contact_pressure.hpp"
 #include "solver/closures/kinetic_theory.hpp"
-#include "solver/closures/radial_distribution.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 
 namespace granvof::closures {
 namespace {
@@ -29,9 +29,9 @@ struct State {
 // tau:S with tau = 2 f mu S, S_xy = S_yx = G/2; `printed_factor` is the 2 that (7) prints in front of it,
 // or 1.
 double steady_strain(const State& s, double printed_factor) {
-  const double g0 = radial_distribution(s.f_s, paper.solid_fraction_max);
+  const double g0 = RadialPaper::value(s.f_s, {paper.solid_fraction_max});
   const double mu = kinetic_viscosity(s.f_s, s.theta, s.e, g0, rho_s, d_s);
-  const double lost = dissipation(s.f_s, s.theta, s.e, g0, rho_s, d_s, 0.0);
+  const double lost = collisional_dissipation_rate(s.f_s, s.e, g0, rho_s, d_s) * std::pow(s.theta, 1.5);
   const auto production = [&](double norm) {
     const double s_xy = norm;  // G/2
     return printed_factor * 2.0 * s.f_s * mu * (s_xy * s_xy + s_xy * s_xy);
@@ -79,9 +79,9 @@ TEST(DenseFlowLaw, GivesTheDensePressure) {
 
 TEST(DenseFlowLaw, FactorOfTheDensePressureBySource) {
   const State s = states[0];
-  const double g0 = radial_distribution(s.f_s, paper.solid_fraction_max);
+  const double g0 = RadialPaper::value(s.f_s, {paper.solid_fraction_max});
   const double mu = kinetic_viscosity(s.f_s, s.theta, s.e, g0, rho_s, d_s);
-  const double zeta = kinetic_bulk_viscosity(s.f_s, s.theta, s.e, g0, rho_s, d_s);
+  const double zeta = bulk_to_shear_viscosity * kinetic_viscosity(s.f_s, s.theta, s.e, g0, rho_s, d_s);
 
   const double derived = pressure_of_flow_law(s.f_s, steady_strain(s, 1.0)) / bracket(s);
   const double derived_with_printed_work = pressure_of_flow_law(s.f_s, steady_strain(s, 2.0)) / bracket(s);

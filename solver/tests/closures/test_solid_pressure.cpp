@@ -16,7 +16,7 @@ constexpr double e = 0.3;
 constexpr double rho_s = 2500.0;  // [kg/m3]
 
 double kinetic(double f) {
-  return kinetic_pressure(f, theta, e, radial_distribution(f, paper.solid_fraction_max), rho_s);
+  return kinetic_pressure(f, theta, e, RadialPaper::value(f, {paper.solid_fraction_max}), rho_s);
 }
 
 TEST(SolidPressure, WithoutThetaOnlyTheElasticPartIsLeft) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/closures/contact_friction.hpp"
+#include "solver/closures/friction/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/closures/suspension.hpp"
 #include "solver/tests/closures/derivative.hpp"
@@ -40,11 +40,17 @@ TEST(SuspensionViscosity, ValueAndLimits) {
   EXPECT_NEAR(0.37 * suspension_viscosity(0.63, 0.63), 1.0 + 2.5 * 0.63 / 0.02, 1e-9);
 }
 
+// Boyer et al. 2011's suspension in a liquid of 0.1 Pa s.
+double mu(double p, double norm) {
+  return FrictionViscous::coefficient({p, norm, 0.1}, {.friction = 0.32},
+                                      {.fast_friction = 0.7, .viscous_number = 0.005});
+}
+
 TEST(ViscousFriction, GrowsFromRestToItsLimit) {
-  EXPECT_EQ(viscous_friction(10.0, 0.0, 0.32, 0.7, 0.005, 0.1), 0.32);
-  EXPECT_EQ(viscous_friction(0.0, 1.0, 0.32, 0.7, 0.005, 0.1), 0.7);
+  EXPECT_EQ(mu(10.0, 0.0), 0.32);
+  EXPECT_EQ(mu(0.0, 1.0), 0.7);
   // I_v = 0.1 x 0.5 / 10 = 0.005: half way
-  EXPECT_NEAR(viscous_friction(10.0, 0.25, 0.32, 0.7, 0.005, 0.1), 0.51, 1e-12);
+  EXPECT_NEAR(mu(10.0, 0.25), 0.51, 1e-12);
 }
 
 TEST(CriticalPacking, FallsWithInertiaAndViscosityAlike) {

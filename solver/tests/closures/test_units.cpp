@@ -30,7 +30,7 @@ constexpr Units si{1.0, 1.0, 1.0};
 constexpr Units other{3.0, 7.0, 0.2};
 
 struct Values {
-  double drag, restitution, eddy, pressure, enduring, viscosity, conductivity, dissipation, friction,
+  double drag, restitution, eddy, pressure, enduring, viscosity, dissipation, expansion, friction,
       inertial;
 };
 
@@ -45,7 +45,7 @@ Values evaluate(const Units& u) {
   const double theta = 0.04 * u.theta();
   const double e = effective_restitution(0.9, theta, rho_s, d_s, liquid.viscosity);
   const double f_s = 0.58;
-  const double g0 = radial_distribution(f_s, contact.solid_fraction_max);
+  const double g0 = RadialPaper::value(f_s, {contact.solid_fraction_max});
   const double enduring = enduring_pressure(f_s, theta, e, rho_s, contact, true);
   return {.drag = drag_coefficient(drag_paper, 0.2, 0.6, 0.3 * u.speed(), gas, liquid, d_s),
           .restitution = e,
@@ -53,10 +53,10 @@ Values evaluate(const Units& u) {
           .pressure = solid_pressure(f_s, theta, e, rho_s, contact, true).value,
           .enduring = enduring,
           .viscosity = kinetic_viscosity(f_s, theta, e, g0, rho_s, d_s),
-          .conductivity = conductivity(f_s, theta, e, g0, rho_s, d_s),
-          .dissipation = dissipation(f_s, theta, e, g0, rho_s, d_s, 3.0 / u.s),
+          .dissipation = collisional_dissipation_rate(f_s, e, g0, rho_s, d_s) * theta * std::sqrt(theta),
+          .expansion = expansion_dissipation_rate(f_s, e, g0, rho_s, -3.0 / u.s) * theta,
           .friction = friction_viscosity(enduring, 0.4, contact.regularisation, 2e-5 / u.s),
-          .inertial = inertial_friction(enduring, 10.0 / u.s, 0.4, 0.643, 0.279, rho_s, d_s)};
+          .inertial = FrictionInertial::coefficient({enduring, 10.0 / u.s}, {rho_s, d_s, 0.9, 0.4}, contact)};
 }
 
 TEST(Units, EveryClosureIsDimensionallyConsistent) {
@@ -72,8 +72,8 @@ TEST(Units, EveryClosureIsDimensionallyConsistent) {
   expect_scaled(a.pressure, b.pressure, other.pressure(), "solid pressure [Pa]");
   expect_scaled(a.enduring, b.enduring, other.pressure(), "enduring pressure [Pa]");
   expect_scaled(a.viscosity, b.viscosity, other.viscosity(), "kinetic viscosity [Pa s]");
-  expect_scaled(a.conductivity, b.conductivity, other.viscosity(), "conductivity [Pa s]");
   expect_scaled(a.dissipation, b.dissipation, other.pressure() / other.s, "dissipation [W/m3]");
+  expect_scaled(a.expansion, b.expansion, other.pressure() / other.s, "dissipation of an expansion [W/m3]");
   expect_scaled(a.friction, b.friction, other.viscosity(), "friction viscosity [Pa s]");
   expect_scaled(a.inertial, b.inertial, 1.0, "inertial friction [-]");
 }

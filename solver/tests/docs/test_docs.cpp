@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/drag/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
+#include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/output/extract.hpp"
 #include "solver/tests/cases_directory.hpp"
 
@@ -31,6 +34,20 @@ TEST(Docs, HasARowForEachLawOfDrag) {
   const std::string text = page("theory/drag.md");
   for (const closures::ClosureFacts& law : closures::DragLaws::facts)
     EXPECT_NE(text.find(fmt::format("| [{}](", law.word)), std::string::npos) << law.word;
+}
+
+// As the words of a case file: "word"` with or without its key before it.
+template <typename List>
+void expect_each_word_in(const std::string& text) {
+  for (const closures::ClosureFacts& law : List::facts)
+    EXPECT_NE(text.find(fmt::format("\"{}\"`", law.word)), std::string::npos) << law.word;
+}
+
+TEST(Docs, NamesEachOtherLawOfAList) {
+  const std::string text = page("theory/choices.md");
+  expect_each_word_in<closures::FrictionLaws>(text);
+  expect_each_word_in<closures::RadialDistributions>(text);
+  expect_each_word_in<closures::KineticTransports>(text);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Granular temperature: cooling, the steady balance of simple shear, and states it must survive.
 #include <gtest/gtest.h>
 
-#include "solver/closures/radial_distribution.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/operators/granular_temperature.hpp"
 #include "solver/tests/operators/tank.hpp"
 
@@ -152,7 +152,7 @@ TEST(GranularTemperature, CompressionHeatsNoMoreThanItsWork) {
       Gas gas(scene, f, theta0);
       gas.deform(0.0, -0.5 * strain / dt);
       gas.advance(dt);
-      const double growth = strain * (1.0 + 4.0 * f * closures::radial_distribution(f, 0.63)) / 3.0;
+      const double growth = strain * (1.0 + 4.0 * f * closures::RadialPaper::value(f, {0.63})) / 3.0;
       EXPECT_GT(gas.value(), theta0 * (1.0 + 1.9 * growth)) << f << ' ' << strain;
       EXPECT_LT(gas.value(), theta0 * std::exp(2.0 * growth) * (1.0 + 1e-6)) << f << ' ' << strain;
     }
@@ -220,7 +220,7 @@ TEST(GranularTemperature, PredictionInSteadyCompression) {
   gas.rheology.restitution.fill(e);
   gas.strain.squared.fill(2.0 * stretch * stretch);
   Field predicted(gas.s.grid);
-  const double g0 = closures::radial_distribution(f, scene.contact.solid_fraction_max), loss = 1.0 - e * e;
+  const double g0 = closures::RadialPaper::value(f, {scene.contact.solid_fraction_max}), loss = 1.0 - e * e;
   const double a = 12.0 * loss * f * f * rho * g0 / (d * std::sqrt(M_PI));
   for (const double sign : {1.0, -1.0}) {  // compression takes, expansion gives nothing here
     gas.strain.divergence.fill(sign * div);

@@ -1,0 +1,19 @@
+// The friction coefficients of (17) that model.friction_law chooses from. The first is the paper's. Each is
+//   coefficient(ShearedContacts, Solid, Contact) -> [-].
+#pragma once
+
+#include "solver/closures/friction/constant.hpp"
+#include "solver/closures/friction/inertial.hpp"
+#include "solver/closures/friction/viscous.hpp"
+#include "solver/model/choices.hpp"
+
+namespace granvof::closures {
+
+using FrictionLaws = Choices<FrictionConstant, FrictionInertial, FrictionViscous>;
+using FrictionLaw = Chosen<FrictionLaws>;
+
+inline bool depends_on_pore_viscosity(FrictionLaw chosen) {
+  return chosen.with([](auto law) { return law.depends_on_pore_viscosity; });
+}
+
+}  // namespace granvof::closures
