@@ -166,7 +166,8 @@ def replaced(text, first, last, kind, members):
     own = text[first:last]
     with_fault = [(number, text[first:start] + now + text[end:last]) for start, end, now, number in members]
     if kind == "statement":
-        arms = "".join(f"if (::granvof::mutation::on<0x{number}u>()) {{\n{changed}\n}} else " for number, changed in with_fault)
+        # `;`: what is dropped may be all that a loop does
+        arms = "".join(f"if (::granvof::mutation::on<0x{number}u>()) {{\n{changed}\n;\n}} else " for number, changed in with_fault)
         return f"{arms}{{\n{own}\n}}"
     on = "on_at_start" if kind == "constant" else "on"
     arms = "".join(f"::granvof::mutation::{on}<0x{number}u>() ? ({line_free(changed)}) : " for number, changed in with_fault)

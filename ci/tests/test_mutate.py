@@ -161,6 +161,15 @@ def test_what_the_compiler_decides_is_refused():
         cpp.switched(text, [(*listed.place(mutant, text), mutant.number)])
 
 
+def test_all_that_a_loop_does_may_be_dropped(tmp_path):
+    text = "int f(int n) {\n  int sum = 0;\n  for (int i = 0; i < n; ++i)\n    if (i != 1) sum += i;\n  return sum;\n}\n"
+    dropped = text.index("if (i"), text.index("  return")
+    switched = cpp.switched(text, [(dropped[0], text.index("\n", dropped[0]), "", "1")])
+    (tmp_path / "f.cpp").write_text(switched + "int main() { return f(4); }\n")
+    assert subprocess.run(["g++", "-std=c++20", f"-I{ROOT}", "-o", tmp_path / "f", tmp_path / "f.cpp"]).returncode == 0
+    assert [subprocess.run([tmp_path / "f"], env={"GRANVOF_MUTANT": number}).returncode for number in ("", "1")] == [5, 0]
+
+
 def test_a_text_is_switched_as_a_whole():
     text = 'const char* f() {\n  return g("old name", 1);\n}\n'
     mutant = listed.Mutant("toy/f.cpp", "n", 'g("old name"', 'g("new name"')

@@ -1,7 +1,7 @@
 """The plots, in the form of the paper's figures. Every curve comes computed from granvof-compare; nothing here
 defines a metric. Each function gives back the names of the plots it wrote, none if it has nothing to show."""
 
-from report import energy, ledgers, stability
+from report import energy, ledgers, stability, states
 from report.beads import dambreak_beads_plot, water_entry_plot
 from report.collapse import base_pressure_plot, floating_run_out_plot, run_out_plot, viscous_plot
 from report.floating import centre_plot, floating_plot
@@ -70,6 +70,8 @@ def caption(name):
         return ledgers.caption(name.removeprefix("ledger-"))
     if name.startswith("plan-"):
         return f"{name.removeprefix('plan-')}: the 3D scene from above; colour: depth of the solid, of grains without pores."
+    if name.startswith("states-"):
+        return states.caption(name.removeprefix("states-"))
     if name.startswith("snapshots-"):
         return (f"{name.removeprefix('snapshots-')}: solid fraction, colour of the grains and, where recorded, DEM-VOF; black line: "
                 "alpha = 0.5 (paper, Fig. 3); of a 3D scene its mid-plane.")
@@ -95,4 +97,6 @@ def draw_all(results, directory, kept=None):
     for run in pictured:
         names += results.shown(lambda: snapshot_plot(results, run, directory)) or []
         names += results.shown(lambda: plan_plot(results, run, directory)) or []
+        if results.records.get(results.runs.get(run, {}).get("case", run)):
+            names += results.shown(lambda: states.state_plot(results, run, directory)) or []
     return names

@@ -9,9 +9,9 @@ import numpy as np
 
 import granvof
 from granvof_files import required, write_whole
-from report import snapshots, style
+from report import snapshots, states, style
 from report.embedded import encoded
-from report.film import film
+from report.film import caption, film
 from report.results import Results
 from report.style import plt
 
@@ -76,12 +76,11 @@ def show(directory):
         plots.append((drawn, f"Solid fraction and colour of the grains, {plane}; black line: alpha = 0.5."))
     for drawn in snapshots.plan_plot(results, name, out):
         plots.append((drawn, "From above: depth of the solid, of grains without pores."))
-    figures = [{"data": encoded(required(out / f"{plot}.png").read_bytes()), "caption": caption} for plot, caption in plots]
+    plots += [(drawn, states.caption(name)) for drawn in states.state_plot(results, name, out)]
+    figures = [{"data": encoded(required(out / f"{plot}.png").read_bytes()), "caption": said} for plot, said in plots]
     moving = film(entry)
     if moving:
-        write_whole(out / "film.apng", moving)
-        figures.insert(0, {"data": encoded(moving),
-                           "caption": f"Film, {plane}; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
+        figures.insert(0, {"data": encoded(moving.write(out / "film")), "caption": caption(name, scene, False)})
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, undefined=jinja2.StrictUndefined)
     page = out / "report.html"
     write_whole(page, environment.get_template("run_page.html").render(

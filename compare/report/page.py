@@ -4,12 +4,13 @@ from pathlib import Path
 
 import jinja2
 
-from granvof_files import required, write_whole
+from granvof_files import required
 from report import figures, kept_results, overview, style
 from report.embedded import encoded
-from report.film import film
+from report.film import caption, film
 from report.overview import ORDER
-from report.results import changes
+from report.results import changes, instants
+from report.snapshots import record_of
 
 KEPT_MOVED = 5e-3  # by which a kept value must have moved to be another: more than its last figure shown
 
@@ -58,13 +59,14 @@ def films(results):
     """Films of the runs that have one; written beside the plots too."""
     made = []
     for run, entry in results.curves.items():
-        moving = results.shown(lambda: film(entry))
+        if not results.shown(lambda: any(instants(entry))):
+            continue  # where a run cannot be shown, its record is not asked
+        name, record = results.shown(lambda: record_of(results, results.runs.get(run, {}).get("case", run))) or (None, None)
+        moving = results.shown(lambda: film(entry, record, f"DEM-VOF ({name})"))
         if moving is None:
             continue
-        (results.directory / "plots").mkdir(exist_ok=True)
-        write_whole(results.directory / "plots" / f"film-{run}.apng", moving)
-        made.append({"name": f"film-{run}", "data": encoded(moving),
-                     "caption": f"{run}: film; colour: solid fraction, blue: liquid, dark line: alpha = 0.5."})
+        data = moving.write(results.directory / "plots" / f"film-{run}")
+        made.append({"name": f"film-{run}", "data": encoded(data), "caption": caption(run, entry["scene"], record is not None)})
     return made
 
 

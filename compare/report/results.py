@@ -167,12 +167,12 @@ def snapshots(run):
 
 
 def across(field, dimensions):
-    """(y, x) of a field (z, y, x)."""
+    """(y, x[, component]) of a field (z, y, x[, component])."""
     return field[field.shape[0] // 2] if dimensions == 3 else field.mean(axis=0)
 
 
-def instants(run):
-    """Yields (time, (f_s, alpha, phi)) as arrays (z, y, x), None for a field that was not written."""
+def instants(run, names=("f_s", "alpha", "phi")):
+    """Yields (time, the fields of those names) as arrays (z, y, x[, component]), None for a field that was not written."""
     path = Path(run["directory"]) / "fields.h5"
     if not is_there(path):
         return
@@ -181,6 +181,6 @@ def instants(run):
             groups = [file[name] for name in file if "f_s" in file[name]]
             for group in sorted(groups, key=lambda g: float(g.attrs["time"])):
                 yield float(group.attrs["time"]), tuple(np.asarray(group[name]) if name in group else None
-                                                        for name in ("f_s", "alpha", "phi"))
+                                                        for name in names)
     except OF_READING as error:
         raise Damaged(path, error) from error

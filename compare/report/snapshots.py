@@ -62,6 +62,11 @@ def plan_plot(results, run, directory):
     return [style.save(figure, directory, f"plan-{run}", pdf=False)]
 
 
+def record_of(results, case):
+    """(name, entry) of the first record of a case that has fields; (None, None) where there is none."""
+    return next(((variant, entry) for variant, entry in sorted(results.records.get(case, {}).items()) if any(instants(entry))), (None, None))
+
+
 def recorded_shots(results, case, times, scene):
     """Name of the first variant of a case with fields, and its instants at `times`, None where it has none."""
     for variant, entry in sorted(results.records.get(case, {}).items()):
@@ -74,14 +79,7 @@ def recorded_shots(results, case, times, scene):
 
 def draw(columns, shots, scene, facts, path):
     width, height = 1e3 * scene["tank"][0], 1e3 * scene["tank"][1]
-    tall = height > 1.5 * width
-    if tall:
-        figure, axes = plt.subplots(len(columns), len(shots), squeeze=False, sharex=True, sharey=True,
-                                    figsize=(1.1 * len(shots) + 1.2, 3.2 * len(columns)))
-        axes = axes.T
-    else:
-        figure, axes = plt.subplots(len(shots), len(columns), squeeze=False, sharex=True, sharey=True,
-                                    figsize=(3.6 * len(columns) + 0.8, (3.4 * height / width + 0.28) * len(shots) + 0.9))
+    figure, axes, tall = arranged(len(shots), len(columns), width, height)
     for column, (label, image, given) in enumerate(columns):
         drawn = [draw_shot(axis, image, shot, width, height) for axis, shot in zip(axes[:, column], given)]
         figure.colorbar(drawn[0], ax=axes[:, column], label=label, shrink=0.8, location="right" if tall else "bottom",
@@ -96,6 +94,16 @@ def draw(columns, shots, scene, facts, path):
         axis.set_xlabel("x [mm]")
     style.stamp(figure, facts)
     style.save(figure, path.parent, path.name, pdf=False)
+
+
+def arranged(shots, columns, width, height):
+    """(figure, axes[shot, column], whether the tank is so tall that its instants stand beside each other)."""
+    if height > 1.5 * width:
+        figure, axes = plt.subplots(columns, shots, squeeze=False, sharex=True, sharey=True, figsize=(1.1 * shots + 1.2, 3.2 * columns))
+        return figure, axes.T, True
+    figure, axes = plt.subplots(shots, columns, squeeze=False, sharex=True, sharey=True,
+                                figsize=(3.6 * columns + 0.8, (3.4 * height / width + 0.28) * shots + 0.9))
+    return figure, axes, False
 
 
 def label_of_time(time, scene):

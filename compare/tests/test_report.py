@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 from html.parser import HTMLParser
 
 import h5py
@@ -9,7 +11,7 @@ import numpy as np
 import pytest
 
 from PIL import Image
-from report import drawing, figures, film, page, report, results, sections, snapshots, style
+from report import drawing, figures, film, page, report, results, sections, snapshots, states, style
 
 
 def write_previous(directory, rows):
@@ -32,22 +34,68 @@ def test_report_writes_every_plot_as_png_and_those_of_the_whole_as_pdf(reported)
     assert text.count("data:image/png;base64,") == len(plots) + len(films)
 
 
-def test_a_film_has_every_instant(reported):
+def test_a_film_has_every_instant_with_the_beads_below(reported):
     with Image.open(reported / "plots/film-s1.apng") as moving:
         assert moving.n_frames == 5
-        assert moving.size[0] == 480
+        assert moving.size[0] == film.LEFT + 480 + 8
+        assert moving.size[1] == 2 * (320 + film.ABOVE) + 6 + film.BELOW  # of a record: two tanks below each other
+    assert "beads of DEM-VOF below" in (reported / "report.html").read_text()
+    with Image.open(reported / "plots/film-float-full-r02.apng") as moving:
+        assert moving.size[1] == 320 + film.ABOVE + film.BELOW
 
 
 def test_each_instant_of_a_film_has_its_own_colours(reported):
     entry = results.load(reported).curves["s1"]
+    scene = entry["scene"]
     with Image.open(reported / "plots/film-s1.apng") as moving:
         for index, (time, f_s, alpha, _) in enumerate(results.snapshots(entry)):
             moving.seek(index)
             shown = np.asarray(moving.convert("RGB")).astype(int)
-            assert (shown == np.asarray(film.frame(time, f_s, alpha, entry["scene"]))).all(), index
-            grains, water = shown[-1, 0], shown[-1, -1]
+            label = snapshots.label_of_time(time, scene)  # the record's fields are those of the run
+            expected = film.frame([(label, f_s, alpha), (f"DEM-VOF (seed1), {label}", f_s, alpha)], scene)
+            assert (shown == np.asarray(expected)).all(), index
+            bottom = film.ABOVE + 320 - 1
+            grains, water = shown[bottom, film.LEFT], shown[bottom, film.LEFT + 479]
             assert grains[0] > 2 * grains[2]  # brown
             assert water[2] > water[0] > 200  # light blue
+
+
+def test_a_film_is_shown_at_one_pace_whatever_the_instants():
+    held = film.held_for([0.0, 0.1, 0.2, 1.0])
+    assert held == [600, 600, 4800, film.HOLDS_END]
+    assert film.held_for([0.5, 0.5])[0] == film.LASTS  # of no time at all
+
+
+def test_beads_are_shown_until_their_next_instant():
+    recorded = [(0.0, "a", None), (1.0, "b", None)]
+    shown = [film.until(recorded, time, {"time_unit": 1.0})[1] for time in (-1.0, 0.0, 0.9, 1.0 - 1e-9, 2.0)]
+    assert shown == ["a", "a", "a", "b", "b"]
+
+
+def test_the_axes_of_a_film_are_those_of_its_tank():
+    assert film.ticks(120.0, 6) == [0, 20, 40, 60, 80, 100, 120]
+    tank, liquid = [0.12, 0.08, 0.01], np.ones((8, 12))
+    pictures = [np.asarray(film.frame([("t", 0 * liquid, liquid)], {"tank": [factor * side for side in tank]})) for factor in (1.0, 2.0)]
+    inside = np.s_[film.ABOVE:film.ABOVE + 320, film.LEFT:film.LEFT + 480]
+    assert (pictures[0][inside] == pictures[1][inside]).all()
+    assert (pictures[0] != pictures[1]).any()  # other numbers beside the same picture
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None or shutil.which("ffprobe") is None, reason="there is no ffmpeg")
+def test_a_film_is_an_mp4_too_where_there_is_ffmpeg(reported):
+    said = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "stream=codec_name,width,height,duration", "-of", "json",
+                           reported / "plots/film-s1.mp4"], stdout=subprocess.PIPE, check=True).stdout
+    stream, = json.loads(said)["streams"]
+    moving = film.film(results.load(reported).curves["s1"])
+    assert stream["codec_name"] == "h264" and stream["width"] == moving.frames[0].size[0]
+    assert float(stream["duration"]) == pytest.approx(sum(moving.held) / 1000, abs=0.1)
+
+
+def test_without_ffmpeg_there_is_no_mp4_and_no_error(verify_directory, tmp_path, monkeypatch):
+    moving = film.film(results.load(verify_directory).curves["s1"])
+    monkeypatch.setenv("PATH", str(tmp_path))
+    moving.write(tmp_path / "film")
+    assert [path.name for path in tmp_path.glob("film*")] == ["film.apng"]
 
 
 def test_a_narrow_tank_or_few_instants_have_no_film(verify_directory):
@@ -55,6 +103,28 @@ def test_a_narrow_tank_or_few_instants_have_no_film(verify_directory):
     assert film.film(entry) is not None
     assert film.film(entry | {"scene": entry["scene"] | {"tank": [0.01, 0.4, 1.0]}}) is None
     assert film.film(entry | {"directory": "nowhere"}) is None
+
+
+def test_speeds_pressure_and_temperature_of_a_run_are_pictures(verify_directory, tmp_path, monkeypatch):
+    loaded = results.load(verify_directory)
+    assert states.state_plot(loaded, "s1", tmp_path) == []  # its fields were not written
+    with h5py.File(tmp_path / "fields.h5", "w") as file:
+        for index in range(3):
+            group = file.create_group(f"t{index:04}")
+            group.attrs["time"] = 0.1 * index
+            solid = np.zeros((1, 8, 12))
+            solid[0, :4, :6] = 0.57
+            group["f_s"], group["alpha"], group["p_c"], group["theta"] = solid, 1 + 0 * solid, 100.0 + solid, index * solid
+            group["u_s"], group["u_c"] = np.stack([3 * index + 0 * solid, 4 * index + 0 * solid, 0 * solid], axis=-1), np.zeros((1, 8, 12, 3))
+    loaded.curves["s1"]["directory"] = str(tmp_path)
+    drawn = []
+    monkeypatch.setattr(states.style, "save", lambda figure, *_, **__: drawn.append(figure) or "drawn")
+    assert states.state_plot(loaded, "s1", tmp_path) == ["drawn"]
+    images = [axis.get_images()[0].get_array() for axis in drawn[0].axes if axis.get_images()]
+    assert len(images) == 2 * 4  # all but the first instant
+    assert images[4].max() == pytest.approx(10.0) and images[4].count() == 24  # the speed, where there are grains
+    assert images[6].max() == pytest.approx(100.57) and images[6].count() == 96
+    assert "temperature" in figures.caption("states-s1")
 
 
 class Outside(HTMLParser):
