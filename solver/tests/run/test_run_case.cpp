@@ -299,7 +299,7 @@ TEST_F(RunCase, ANanEndsTheRunWithAReason) {
   for (const char* name : {"u_s0", "u_c1", "theta", "alpha", "f_s", "p_c"}) {
     ASSERT_EQ(run_into(path(name), half), 0);
     Checkpoint saved = read_checkpoint(path(name) / "checkpoint.h5", half);
-    CheckpointView view{saved.time, {}, saved.scalars, saved.counters};
+    CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows};
     std::vector<double>& values = saved.arrays.at(name);
     values[static_cast<std::size_t>(Grid(half).cells.index(1, 2, 0))] = std::nan("");  // inside the bed
     for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;

@@ -174,6 +174,8 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"moving_bumpy_floor_in_periodic_ends",
                 {"gate=false", "walls.left=periodic", "walls.right=periodic", "walls.bottom.solid=bumpy",
                  "walls.bottom.bumpiness=36", "walls.bottom.velocity=[0.1, 0]"}},
+        Variant{"three_dimensions_cut_across_z", {"scene.dimensions=3", "tank.size=[0.16, 0.08, 0.16]"}},
+        Variant{"three_dimensions_cut_across_x", {"scene.dimensions=3", "tank.size=[0.16, 0.08, 0.04]"}},
         Variant{"on_a_slope", {"tank.inclination=10"}}, Variant{"honey", {"liquid.viscosity=2"}},
         Variant{"explicit_contacts", {"numerics.contact_pressure=explicit"}}),
     test::name_of);
