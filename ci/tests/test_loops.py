@@ -7,6 +7,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 SOLVER = ROOT / "solver"
 LOOPS = SOLVER / "grid/for_each.hpp"
 REDUCTIONS = SOLVER / "grid/reduce.hpp"
+SUM_OF_PARTS = SOLVER / "grid/sum_of_parts.hpp"
 SOURCES = {path: path.read_text(encoding="utf-8") for kind in ("*.hpp", "*.cpp") for path in sorted(SOLVER.rglob(kind))
            if not {"tests", "bench"} & set(path.parts)}
 CALL = re.compile(r"\b(for_each|sum_over|max_over|moment_over)\(")
@@ -29,7 +30,7 @@ def test_one_place_starts_threads():
 
 
 def test_sums_and_largest_values_of_a_process_alone_are_for_the_layer():
-    assert {path for path, text in SOURCES.items() if "of_process" in text} == {REDUCTIONS}
+    assert {path for path, text in SOURCES.items() if "of_process" in text} == {REDUCTIONS, SUM_OF_PARTS}
 
 
 def test_what_adds_up_by_rows_hands_it_to_the_layer():

@@ -136,10 +136,10 @@ float* Multigrid::descend_gathered(Level& l, std::size_t depth, int smoothing, d
   float* x = l.x[0].data();
   l.gathered->take(descend(depth + 1, smoothing, nullptr), x);
   exchange(l.layout, x);
+  const float* r = l.rhs.data();
   if (dot)
-    *dot = sum_over(l.layout, Range::all(l.layout), [x, r = l.rhs.data()](std::ptrdiff_t i) {
-      return static_cast<double>(x[i]) * static_cast<double>(r[i]);
-    });
+    *dot = sum_over(l.layout, Range::all(l.layout),
+                    [=](std::ptrdiff_t i) { return static_cast<double>(x[i]) * static_cast<double>(r[i]); });
   return x;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/grid/boundary.hpp"
+#include "solver/grid/sum_of_parts.hpp"
 
 namespace granvof {
 
@@ -23,7 +24,7 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
                                 {below ? 1 : 0, n, 1.0, false},
                                 {n, n + 1, above ? 0.5 : 0.0, closed(true)}}};
   };
-  double total = 0.0;
+  SumOfParts sum(grid.cells);
   for (const Part& a : parts(d)) {
     for (const Part& b : parts(e)) {
       if (a.weight * b.weight == 0.0 || (a.closed && b.closed)) continue;
@@ -32,17 +33,17 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
       r.upper[d] = a.upper;
       r.lower[e] = b.lower;
       r.upper[e] = b.upper;
-      total += a.weight * b.weight * of_process::sum_over(grid.cells, r, body);
+      sum.add(a.weight * b.weight, r, body);
     }
   }
-  return of_all(grid.cells, total);
+  return sum.total();
 }
 
 // Power [W] that moving walls give to a phase whose shear stress [Pa] on the edge with index c of plane (d,
 // e) is stress(d, e)(c).
 template <typename Stress>
 double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
-  double total = 0.0;
+  SumOfParts sum(grid.cells);
   for (int d = 0; d < grid.dim; ++d) {
     for (int upper = 0; upper < 2; ++upper) {
       if (grid.cells.seam(d, upper == 1)) continue;
@@ -50,19 +51,19 @@ double wall_power(const Grid& grid, const Boundary& boundary, Stress&& stress) {
         const double speed = boundary.side(d, upper).velocity[e];
         if (e == d || speed == 0.0) continue;
         const auto of_edge = stress(std::min(d, e), std::max(d, e));
-        const auto on_wall = [&](Range faces) {  // those of component e along the wall
+        const double power = (upper ? 1.0 : -1.0) * speed * grid.cell_volume / grid.h[d];
+        const auto add_on_wall = [&](double weight, Range faces) {  // those of component e along the wall
           faces.lower[d] = upper ? grid.cells.n[d] : 0;
           faces.upper[d] = faces.lower[d] + 1;
-          return of_process::sum_over(grid.cells, faces, of_edge);
+          sum.add(weight * power, faces, of_edge);
         };
-        double sum = on_wall(grid.inner_faces(e));
+        add_on_wall(1.0, grid.inner_faces(e));
         for (const bool far : {false, true})
-          if (grid.side(e, far).passes_fluid) sum += 0.5 * on_wall(grid.side_faces(e, far));
-        total += (upper ? 1.0 : -1.0) * speed * sum * grid.cell_volume / grid.h[d];
+          if (grid.side(e, far).passes_fluid) add_on_wall(0.5, grid.side_faces(e, far));
       }
     }
   }
-  return of_all(grid.cells, total);
+  return sum.total();
 }
 
 }  // namespace granvof
