@@ -30,8 +30,7 @@ constexpr Units si{1.0, 1.0, 1.0};
 constexpr Units other{3.0, 7.0, 0.2};
 
 struct Values {
-  double drag, restitution, eddy, pressure, enduring, viscosity, dissipation, expansion, friction,
-      inertial;
+  double drag, restitution, eddy, pressure, enduring, viscosity, dissipation, expansion, friction, inertial;
 };
 
 Values evaluate(const Units& u) {
