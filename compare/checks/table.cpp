@@ -284,10 +284,9 @@ std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedR
     check.relation = entry.one_of("relation", {Relation::equal, Relation::at_most, Relation::at_least});
   if (entry.has("asserted")) check.asserted = entry.truth("asserted");
   const bool of_every_run = is_of_every_run(entry);
-  if (!of_every_run)
-    check.frequency = read_frequency(entry);
-  else if (entry.has("frequency"))
+  if (of_every_run && entry.has("frequency"))
     entry.fail("frequency", "a check of every run is made of each as often as another one is");
+  check.frequency = of_every_run ? Frequency::short_ : read_frequency(entry);
   if (entry.has("label")) check.label = entry.text("label");
   std::vector<std::optional<double>> instants{std::nullopt};
   if (metric->needs.at) {
@@ -313,12 +312,9 @@ std::vector<Check> read_check(const TomlEntry& entry, const std::vector<PlannedR
         const bool named_run = std::ranges::find(named, run->id) != named.end();
         if (!named_run && read.kind == ReferenceKind::regression) continue;
         Check shared = check;
-        if (of_every_run) shared.frequency = run->frequency;
-        if (!named_run) {
-          shared.frequency = std::max(check.frequency, run->frequency);
-          if (check.parameters.against)
-            shared.parameters.against = beside(entry, *check.parameters.against, *run, runs);
-        }
+        if (of_every_run || !named_run) shared.frequency = std::max(check.frequency, run->frequency);
+        if (!named_run && check.parameters.against)
+          shared.parameters.against = beside(entry, *check.parameters.against, *run, runs);
         Check one = row(std::move(shared), read, at, *run);
         for (const Expected& failure : failures) {
           const auto expected = failure.of(run->id, at);

@@ -25,7 +25,7 @@ def snapshot_plot(results, run, directory):
     else:
         variant = None
     if len(shots) > MOST_SHOTS:
-        kept = np.unique(np.linspace(0, len(shots) - 1, MOST_SHOTS).round().astype(int))
+        kept = evenly(0, len(shots), MOST_SHOTS)
         shots, recorded = [shots[i] for i in kept], [recorded[i] for i in kept if recorded]
     columns = [("solid fraction $f_s$ [-]", solid_image, shots)]
     if any(has_colours(f_s, phi) for _, f_s, _, phi in shots):
@@ -45,8 +45,7 @@ def plan_plot(results, run, directory):
     shots = [(time, fields[0].sum(axis=1) * 1e3 * scene["spacing"][1]) for time, fields in instants(entry)]
     if not shots:
         return []
-    kept = np.unique(np.linspace(0, len(shots) - 1, MOST_SHOTS).round().astype(int))
-    shots = [shots[i] for i in kept]
+    shots = [shots[i] for i in evenly(0, len(shots), MOST_SHOTS)]
     length, depth = 1e3 * scene["tank"][0], 1e3 * scene["tank"][2]
     figure, axes = plt.subplots(len(shots), 1, squeeze=False, sharex=True, sharey=True,
                                 figsize=(4.4, (3.4 * depth / length + 0.28) * len(shots) + 0.9))
@@ -84,14 +83,7 @@ def draw(columns, shots, scene, facts, path):
         drawn = [draw_shot(axis, image, shot, width, height) for axis, shot in zip(axes[:, column], given)]
         figure.colorbar(drawn[0], ax=axes[:, column], label=label, shrink=0.8, location="right" if tall else "bottom",
                         aspect=30, pad=0.01)
-    for axis, shot in zip(axes[:, 0], shots):
-        axis.set_title(label_of_time(shot[0], scene), loc="left", fontsize=8)
-    for axis in axes.flat:
-        axis.grid(False)
-        axis.set_aspect("auto" if height > 5 * width else "equal")  # a column: drawn wider than it is
-    figure.supylabel("y [mm]", fontsize=9)
-    for axis in axes[:, -1] if tall else axes[-1]:
-        axis.set_xlabel("x [mm]")
+    label_axes(figure, axes, [shot[0] for shot in shots], scene, tall)
     style.stamp(figure, facts)
     style.save(figure, path.parent, path.name, pdf=False)
 
@@ -104,6 +96,24 @@ def arranged(shots, columns, width, height):
     figure, axes = plt.subplots(shots, columns, squeeze=False, sharex=True, sharey=True,
                                 figsize=(3.6 * columns + 0.8, (3.4 * height / width + 0.28) * shots + 0.9))
     return figure, axes, False
+
+
+def label_axes(figure, axes, times, scene, tall):
+    """What the axes of arranged() say, and in which proportions a tank is drawn."""
+    for axis, time in zip(axes[:, 0], times):
+        axis.set_title(label_of_time(time, scene), loc="left", fontsize=8)
+    width, height = scene["tank"][:2]
+    for axis in axes.flat:
+        axis.grid(False)
+        axis.set_aspect("auto" if height > 5 * width else "equal")  # a column: drawn wider than it is
+    figure.supylabel("y [mm]", fontsize=9)
+    for axis in axes[:, -1] if tall else axes[-1]:
+        axis.set_xlabel("x [mm]")
+
+
+def evenly(first, count, most):
+    """At most `most` places from `first` to count - 1, both of them, as even as whole numbers are."""
+    return np.unique(np.linspace(first, count - 1, most).round().astype(int))
 
 
 def label_of_time(time, scene):

@@ -5,7 +5,7 @@ from matplotlib.ticker import MaxNLocator
 
 from report import style
 from report.results import across, instants
-from report.snapshots import EMPTY, arranged, label_of_time
+from report.snapshots import EMPTY, arranged, evenly, label_axes
 
 MOST_SHOTS = 4
 FIELDS = ("f_s", "alpha", "u_s", "u_c", "p_c", "theta")
@@ -29,7 +29,7 @@ def state_plot(results, run, directory):
     shots = [(time, dict(zip(FIELDS, fields))) for time, fields in instants(entry, FIELDS)]
     if not shots or any(field is None for _, fields in shots for field in fields.values()):
         return []
-    kept = np.unique(np.linspace(min(1, len(shots) - 1), len(shots) - 1, MOST_SHOTS).round().astype(int))  # at first all is at rest
+    kept = evenly(min(1, len(shots) - 1), len(shots), MOST_SHOTS)  # at first all is at rest
     shots = [(time, {name: across(field, scene["dimensions"]) for name, field in fields.items()})
              for time, fields in (shots[i] for i in kept)]
     width, height = 1e3 * scene["tank"][0], 1e3 * scene["tank"][1]
@@ -46,14 +46,7 @@ def state_plot(results, run, directory):
         bar.locator = MaxNLocator(nbins=4)
         bar.formatter.set_powerlimits((-2, 4))
         bar.update_ticks()
-    for axis, (time, _) in zip(axes[:, 0], shots):
-        axis.set_title(label_of_time(time, scene), loc="left", fontsize=8)
-    for axis in axes.flat:
-        axis.grid(False)
-        axis.set_aspect("auto" if height > 5 * width else "equal")
-    figure.supylabel("y [mm]", fontsize=9)
-    for axis in axes[:, -1] if tall else axes[-1]:
-        axis.set_xlabel("x [mm]")
+    label_axes(figure, axes, [time for time, _ in shots], scene, tall)
     style.stamp(figure, results.facts(run))
     return [style.save(figure, directory, f"states-{run}", pdf=False)]
 

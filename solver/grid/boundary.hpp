@@ -33,8 +33,7 @@ class Boundary {
   void exchange(double* values) const { granvof::exchange(grid_.cells, values); }
   // The same where other processes have them: what a loop of this process alone would find at hand.
   void share(Field& f) const {
-    const Communicator* processes = grid_.cells.communicator;
-    if (processes != nullptr && processes->size() > 1) exchange(f);
+    if (grid_.cells.is_cut()) exchange(f);
   }
 
   const SideRule& side(int direction, bool upper) const { return grid_.side(direction, upper); }

@@ -27,7 +27,7 @@ struct Grid {
   Obstacles obstacles;
 
   // `communicator` to those who hold the rest of the tank must outlive this; none: it is whole. A tank that
-  // is cut among processes has no obstacles, and may_be_cut() says whether that many can share it.
+  // is cut among processes has no obstacles, and check_cut() says whether that many can share it.
   explicit Grid(const Scene& scene, const Communicator* communicator = nullptr);
 
   // Every column of cells is open from the floor to the top, and nothing flows through other sides than that.

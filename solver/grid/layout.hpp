@@ -43,11 +43,14 @@ struct Layout {
   }
 
   bool is_split(int d) const { return n[d] < whole[d]; }
+  // Other processes hold the rest of the box.
+  bool is_cut() const { return is_split(0) || is_split(1) || is_split(2); }
   // What lies beyond an end comes by exchange(), no side of the whole box is there.
   bool seam(int d, bool upper) const {
     return periodic[d] || (upper ? first[d] + n[d] < whole[d] : first[d] > 0);
   }
   bool any_seam(int d) const { return seam(d, false) || seam(d, true); }
+  bool any_seam() const { return any_seam(0) || any_seam(1) || any_seam(2); }
 
   std::ptrdiff_t index(int i, int j, int k) const {
     return origin + i * stride[0] + j * stride[1] + k * stride[2];

@@ -22,13 +22,16 @@ WholeBox::WholeBox(const Layout& part, const Layout& whole, Values values)
   layers_.back().end += part.ghost[cut_];
 }
 
-template <typename Copy>
-void WholeBox::for_each_value_of_a_layer(const Layout& l, Copy&& copy) const {
+template <typename Visit>
+void WholeBox::for_each_value_of_a_layer(Visit&& visit) const {
   const int e = cut_ == 0 ? 1 : 0, f = 3 - cut_ - e;
-  const int ge = ghosts_ ? l.ghost[e] : 0, gf = ghosts_ ? l.ghost[f] : 0;
+  const int ge = ghosts_ ? part_.ghost[e] : 0, gf = ghosts_ ? part_.ghost[f] : 0;
+  const auto index = [=](const Layout& l, int a, int b) {
+    return l.origin + a * l.stride[e] + b * l.stride[f];
+  };
   std::size_t number = 0;
-  for (int b = -gf; b < l.n[f] + gf; ++b)
-    for (int a = -ge; a < l.n[e] + ge; ++a) copy(l.origin + a * l.stride[e] + b * l.stride[f], number++);
+  for (int b = -gf; b < part_.n[f] + gf; ++b)
+    for (int a = -ge; a < part_.n[e] + ge; ++a) visit(index(part_, a, b), index(whole_, a, b), number++);
 }
 
 std::size_t WholeBox::values_of_a_layer() const {
@@ -55,14 +58,16 @@ void WholeBox::collect(const T* part, T* whole, bool everywhere) const {
   T* out = reinterpret_cast<T*>(mine_.data());
   for (int at = layers_[own].begin; at < layers_[own].end; ++at, out += width) {
     const T* layer = part + (at - part_.first[cut_]) * part_.stride[cut_];
-    for_each_value_of_a_layer(part_, [=](std::ptrdiff_t i, std::size_t number) { out[number] = layer[i]; });
+    for_each_value_of_a_layer(
+        [=](std::ptrdiff_t i, std::ptrdiff_t, std::size_t number) { out[number] = layer[i]; });
   }
   processes.gather(mine_, sizes, all_, everywhere);
   if (!receives) return;
   const T* in = reinterpret_cast<const T*>(all_.data());
   for (int at = layers_.front().begin; at < layers_.back().end; ++at, in += width) {
     T* layer = whole + at * whole_.stride[cut_];
-    for_each_value_of_a_layer(whole_, [=](std::ptrdiff_t i, std::size_t number) { layer[i] = in[number]; });
+    for_each_value_of_a_layer(
+        [=](std::ptrdiff_t, std::ptrdiff_t i, std::size_t number) { layer[i] = in[number]; });
   }
 }
 template void WholeBox::collect(const double* part, double* whole, bool everywhere) const;
@@ -71,14 +76,10 @@ template void WholeBox::collect(const float* part, float* whole, bool everywhere
 template <typename T>
 void WholeBox::take(const T* whole, T* part) const {
   const int ghost = ghosts_ ? part_.ghost[cut_] : 0;
-  const int e = cut_ == 0 ? 1 : 0, f = 3 - cut_ - e;
-  const int ge = ghosts_ ? part_.ghost[e] : 0, gf = ghosts_ ? part_.ghost[f] : 0;
   for (int at = -ghost; at < part_.n[cut_] + ghost; ++at) {
-    T* to = part + part_.origin + at * part_.stride[cut_];
-    const T* from = whole + whole_.origin + (at + part_.first[cut_]) * whole_.stride[cut_];
-    for (int b = -gf; b < part_.n[f] + gf; ++b)
-      for (int a = -ge; a < part_.n[e] + ge; ++a)
-        to[a * part_.stride[e] + b * part_.stride[f]] = from[a * whole_.stride[e] + b * whole_.stride[f]];
+    T* to = part + at * part_.stride[cut_];
+    const T* from = whole + (at + part_.first[cut_]) * whole_.stride[cut_];
+    for_each_value_of_a_layer([=](std::ptrdiff_t i, std::ptrdiff_t j, std::size_t) { to[i] = from[j]; });
   }
 }
 template void WholeBox::take(const double* whole, double* part) const;

@@ -30,9 +30,10 @@ class WholeBox {
   struct Layers {
     int begin = 0, end = 0;
   };
-  // copy(index in the layout of layer 0, number of a value) for the values of a layer.
-  template <typename Copy>
-  void for_each_value_of_a_layer(const Layout& l, Copy&& copy) const;
+  // visit(index in layer 0 of the part, in layer 0 of the whole, number of a value) for the values of a
+  // layer.
+  template <typename Visit>
+  void for_each_value_of_a_layer(Visit&& visit) const;
   std::size_t values_of_a_layer() const;
 
   Layout part_, whole_;

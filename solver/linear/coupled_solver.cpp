@@ -165,8 +165,7 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
       return largest(n, r);
     });
     // t is reused as a product later: nothing but the box may stay in it
-    if (layout_.any_seam(0) || layout_.any_seam(1) || layout_.any_seam(2))
-      std::fill_n(t_[c].data(), layout_.size, 0.0);
+    if (layout_.any_seam()) std::fill_n(t_[c].data(), layout_.size, 0.0);
   }
   return norms;
 }

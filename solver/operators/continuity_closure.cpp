@@ -48,7 +48,7 @@ class Closure {
     for (int k = 0; k < l.n[2]; ++k)
       for (int j = 0; j < l.n[vertical]; ++j)
         for (int i = 0; i < l.n[0]; ++i) column(l.first[0] + i, l.first[2] + k) += gain_[l.index(i, j, k)];
-    if (l.communicator != nullptr && l.communicator->size() > 1) l.communicator->sum(columns_);
+    if (l.is_cut()) l.communicator->sum(columns_);
     if (grid_.dim == 3) even_out_along_z();
     even_out_along_x();
   }

@@ -3,8 +3,7 @@
 namespace granvof {
 
 WholeTank::WholeTank(const Scene& scene, const Grid& grid) : part_(grid) {
-  const Communicator* processes = grid.cells.communicator;
-  if (processes == nullptr || processes->size() == 1) return;
+  if (!grid.cells.is_cut()) return;
   whole_.emplace(scene);
   box_.emplace(grid.cells, whole_->cells, WholeBox::Values::box_and_ghosts);
 }

@@ -5,7 +5,7 @@
 #include "solver/grid/reduce.hpp"
 #include "solver/grid/slabs.hpp"
 #include "solver/grid/whole_box.hpp"
-#include "solver/tests/team.hpp"
+#include "solver/tests/cut_box.hpp"
 
 namespace granvof {
 namespace {
@@ -40,13 +40,7 @@ TEST(Slabs, AreCutAcrossTheLongestDirectionOfTheFloor) {
   EXPECT_EQ(most_slabs({3, 90, 1}, 2), 1);
 }
 
-struct Cut {
-  const char* name;
-  std::array<int, 3> n;
-  int dim;
-  std::array<bool, 3> periodic;
-  int ranks;
-};
+using test::Cut;
 
 class CutBox : public ::testing::TestWithParam<Cut> {
  protected:
@@ -58,15 +52,9 @@ class CutBox : public ::testing::TestWithParam<Cut> {
     });
     return values;
   }
-  // work(communicator, layout of the slab) in every process.
   template <typename Work>
   void in_all(Work&& work) {
-    test::Team team(GetParam().ranks, test::Boxes::slabs);
-    ASSERT_NO_THROW(team.run([&](int rank, const Communicator& processes) {
-      Layout part = slab_of(whole_, GetParam().dim, GetParam().ranks, rank);
-      part.communicator = &processes;
-      work(part);
-    }));
+    test::in_all_slabs(GetParam(), whole_, work);
   }
 
   Layout whole_ = Layout::make(GetParam().n, {2, 2, GetParam().dim == 3 ? 2 : 0}, GetParam().periodic);
@@ -132,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Cut{"a_ring_of_three", {14, 4, 1}, 2, {true, true, false}, 3},
                       Cut{"across_z", {6, 4, 13}, 3, {false, false, true}, 3},
                       Cut{"across_x_in_three_dimensions", {13, 4, 5}, 3, {true, false, true}, 2}),
-    [](const auto& tested) { return std::string(tested.param.name); });
+    test::name_of_cut);
 
 }  // namespace
 }  // namespace granvof

@@ -5,23 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "solver/grid/for_each.hpp"
-#include "solver/grid/slabs.hpp"
 #include "solver/grid/whole_box.hpp"
 #include "solver/linear/coupled_solver.hpp"
 #include "solver/linear/multigrid.hpp"
 #include "solver/linear/scalar_solver.hpp"
-#include "solver/tests/team.hpp"
+#include "solver/tests/cut_box.hpp"
 
 namespace granvof::linear::testing {
 namespace {
 
-struct Cut {
-  const char* name;
-  std::array<int, 3> n;
-  int dim;
-  std::array<bool, 3> periodic;
-  int ranks;
-};
+using test::Cut;
 
 using Values = std::vector<double>;
 
@@ -81,10 +74,7 @@ class CutSystem : public ::testing::TestWithParam<Cut> {
     for (const double v : expected) largest = std::max(largest, std::fabs(v));
     ASSERT_GT(largest, 0.0);
     const System given(whole);
-    test::Team team(cut.ranks, test::Boxes::slabs);
-    ASSERT_NO_THROW(team.run([&](int rank, const Communicator& processes) {
-      Layout l = slab_of(whole, cut.dim, cut.ranks, rank);
-      l.communicator = &processes;
+    test::in_all_slabs(cut, whole, [&](const Layout& l) {
       System own = given.part(l);
       const Values part = solve(own);
       Values all(whole.size);
@@ -94,8 +84,8 @@ class CutSystem : public ::testing::TestWithParam<Cut> {
         const auto c = static_cast<std::size_t>(whole.index(at));
         off = std::max(off, std::fabs(all[c] - expected[c]));
       });
-      EXPECT_LE(off, tolerance * largest) << "process " << rank;
-    }));
+      EXPECT_LE(off, tolerance * largest) << "process " << l.communicator->rank();
+    });
   }
 };
 
@@ -146,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Cut{"a_ring_of_three_in_a_ring", {190, 64, 1}, 2, {true, true, false}, 3},
                       Cut{"across_z", {20, 12, 66}, 3, {false, false, true}, 3},
                       Cut{"across_x_in_three_dimensions", {66, 12, 20}, 3, {false, false, true}, 2}),
-    [](const auto& tested) { return std::string(tested.param.name); });
+    test::name_of_cut);
 
 }  // namespace
 }  // namespace granvof::linear::testing
