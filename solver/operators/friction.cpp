@@ -34,7 +34,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
   for (int p = 0; p < (grid.dim == 2 ? 1 : 3); ++p) {
     mu_edge_[p] = Field(grid);
     shear_[p] = Field(grid);
-    if (grid.has_bumps()) kinetic_edge_[p] = Field(grid);
+    if (grid.has_bumps() || has_coulomb_walls()) kinetic_edge_[p] = Field(grid);
   }
   if (scene.numerics.bed_surface == BedSurface::part_cells) {
     mu_vertical_ = Field(grid);
@@ -42,6 +42,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       tilting_[plane_index(std::min(d, vertical), std::max(d, vertical))] = Field(grid, 1.0);
   }
   for (int d = 0; d < grid.dim; ++d) {
+    if (holds_by_friction(d, false) || holds_by_friction(d, true)) normal_stress_[d] = Field(grid);
     coefficient_[d] = FaceField(grid);
     faces_[d] = faces_of(grid, box_, d);
   }
@@ -81,6 +82,20 @@ void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) 
 linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
                                const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
                                FaceField& u_s) {
+  for (int d = 0; d < grid_.dim; ++d) normal_stress_[d].fill(0.0);
+  return solve_by(mass, rhs, inertia, aperture, rheology, u_strain, u_s);
+}
+
+linear::Report Friction::solve_again(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+                                     const Aperture& aperture, const Rheology& rheology,
+                                     const FaceField& u_last, FaceField& u_s) {
+  keep_normal_stress(u_last);
+  return solve_by(mass, rhs, inertia, aperture, rheology, u_last, u_s);
+}
+
+linear::Report Friction::solve_by(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+                                  const Aperture& aperture, const Rheology& rheology,
+                                  const FaceField& u_strain, FaceField& u_s) {
   fit_box(inertia);
   if (is_empty(box_)) return {0, 0.0, 0.0, true};
   set_viscosity(rheology, u_strain);

@@ -1,7 +1,8 @@
 // Implicit solid stress: Coulomb friction (17) and kinetic viscosity (16) of u_s in one symmetric system.
 //
-// friction_law.cpp has the viscosities, friction_operator.cpp the operator, friction_preconditioner.cpp what
-// it is preconditioned and judged by, friction_power.cpp its work; the solve is in friction.cpp.
+// friction_law.cpp has the viscosities, friction_walls.cpp those at walls, friction_operator.cpp the
+// operator, friction_preconditioner.cpp what it is preconditioned and judged by, friction_power.cpp its work;
+// the solve is in friction.cpp.
 //
 //   mass u_s - div(2 mu S + lambda (div u_s) I) = rhs,  mu = f_s mu_s^K + mu_friction,  lambda = f_s mu_s^K
 // (f_s (zeta - 2/3 mu) of (16) equals f_s mu_s^K because zeta/mu = 5/3). The full tensor is kept implicit:
@@ -37,6 +38,17 @@ class Friction {
                        const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
                        FaceField& u_s);
 
+  // The same once more within a step: viscosities from the strain of `u_last`, what the last solve gave
+  // (ghosts filled), and Coulomb walls by its normal traction. The first solve takes P_s^E for it.
+  linear::Report solve_again(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+                             const Aperture& aperture, const Rheology& rheology, const FaceField& u_last,
+                             FaceField& u_s);
+
+  bool has_coulomb_walls() const;
+  // Whether grains slip on Coulomb walls by other than the viscosities of the last solve were taken at,
+  // `before`: those are the walls' limit over the old speed, and hold what begins to slide for many steps.
+  bool slips_otherwise(const FaceField& before, const FaceField& now) const;
+
   // Power [W] of the stress of the last solve, at the velocity `u` it was solved for; `kinetic` [W/m3]: what
   // the kinetic viscosity dissipates in each cell, an edge's dissipation shared by its cells as their
   // viscosity.
@@ -53,7 +65,13 @@ class Friction {
   void fit_box(const FaceInertia& inertia);
   void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
+  linear::Report solve_by(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+                          const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
+                          FaceField& u_s);
+  bool holds_by_friction(int d, bool upper) const;
+  void keep_normal_stress(const FaceField& u);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
+  void set_kinetic_edges(const Rheology& rheology);
   void slip_on_bumps(const Rheology& rheology);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology);
@@ -82,9 +100,10 @@ class Friction {
   Field mu_, lambda_;                  // at cell centres [Pa s]
   std::array<Field, 3> mu_edge_;       // on edges [Pa s], by plane_index()
   std::array<Field, 3> shear_;         // shear stress on edges [Pa]
-  std::array<Field, 3> kinetic_edge_;  // with bumpy walls, the kinetic part of mu_edge_ [Pa s]
+  std::array<Field, 3> kinetic_edge_;  // with bumpy or Coulomb walls, the kinetic part of mu_edge_ [Pa s]
   std::array<Field, 3> tilting_;       // with part-cells, on the edges of vertical planes [-]
   Field mu_vertical_;                  // with part-cells, of the vertical normal strain [Pa s]
+  FaceField normal_stress_;            // of contacts, beside Coulomb walls [Pa]; empty without
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
   std::optional<linear::ConjugateGradient> solver_;

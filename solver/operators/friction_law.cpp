@@ -3,16 +3,12 @@
 #include <cmath>
 
 #include "solver/closures/agitation_drag.hpp"
-#include "solver/closures/bumpy_wall.hpp"
 #include "solver/closures/contact_friction.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/friction.hpp"
 
 namespace granvof {
 namespace {
-
-constexpr double slowest_sliding =
-    1e-7;  // of the scene's velocity: below it a Coulomb wall holds like a viscous one
 
 // What friction depends on, in a cell or summed over the cells in contact around an edge.
 struct Contacts {
@@ -24,14 +20,6 @@ struct Contacts {
   double fluid = 0.0;           // mu_c between the grains [Pa s]
   double normal_squared = 0.0;  // S:S of what is averaged over cells [1/s2]
 };
-
-// Edges of plane (d, e) on a side of direction d, within the box.
-Range edges_on_side(const Grid& grid, const Range& box, int d, int e, bool upper) {
-  Range wall = grid.edges(d, e);
-  wall.lower[d] = upper ? grid.cells.n[d] : 0;
-  wall.upper[d] = wall.lower[d] + 1;
-  return common(wall, Grid::edges(box, d, e));
-}
 
 }  // namespace
 
@@ -163,82 +151,8 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     }
   }
   set_wall_friction(rheology, u_strain);
+  set_kinetic_edges(rheology);
   slip_on_bumps(rheology);
-}
-
-// Edges on closed sides: none for slip, at most mu_w P_s^E for Coulomb (through a viscosity of the old
-// speed), and the bed's own for no-slip. The operator takes the wall's shear as 2 u_t / h.
-void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_strain) {
-  const double* p = rheology.enduring_pressure.data();
-  const double slowest = slowest_sliding * velocity_;
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (const bool upper : {false, true}) {
-      if (grid_.cells.seam(d, upper)) continue;
-      const SideRule& side = boundary_.side(d, upper);
-      const double mu_w = side.friction;
-      if (std::isinf(mu_w)) continue;
-      for (int e = 0; e < grid_.dim; ++e) {
-        if (e == d) continue;
-        const Range wall = edges_on_side(grid_, box_, d, e, upper);
-        const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, t = grid_.stride(e);
-        const double h = grid_.h[d], u_wall = side.velocity[e];
-        const int g =
-            3 - d - e;  // in 3D the other tangential direction: the wall limits the vector, not a component
-        const bool three = grid_.dim == 3;
-        const double w_wall = three ? side.velocity[g] : 0.0;
-        const std::ptrdiff_t r = three ? grid_.stride(g) : 0;
-        const double *v = u_strain[e].data(), *w = three ? u_strain[g].data() : v;
-        double* edge = mu_edge_[plane_index(d, e)].data();
-        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
-          const double pressure = 0.25 * (p[c] + p[c - s] + p[c - t] + p[c - s - t]);
-          const std::ptrdiff_t i = c + inside;
-          const double along = v[i] - u_wall;
-          const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
-          const double speed = std::sqrt(along * along + across * across);
-          edge[c] = std::min(edge[c], mu_w * pressure * 0.5 * h / std::max(speed, slowest));
-        });
-      }
-    }
-  }
-}
-
-// Collisions with the bumps of a wall: stress and slip of bumpy_wall.hpp, in a row with the kinetic viscosity
-// over the half cell beside it. Enduring contacts stick to the bumps.
-void Friction::slip_on_bumps(const Rheology& rheology) {
-  if (rheology.bump_pressure.empty()) return;
-  const double *kinetic = rheology.kinetic_viscosity.data(), *pressure = rheology.bump_pressure.data();
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (int e = d + 1; e < grid_.dim; ++e) {
-      const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
-      double* own = kinetic_edge_[plane_index(d, e)].data();
-      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
-        own[c] = 0.25 * (kinetic[c] + kinetic[c - s] + kinetic[c - t] + kinetic[c - s - t]);
-      });
-    }
-  }
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (const bool upper : {false, true}) {
-      const auto& bumps = boundary_.side(d, upper).bumps;
-      if (!bumps) continue;
-      const double slip = closures::bumpy_wall_slip(bumps->angle);
-      for (int e = 0; e < grid_.dim; ++e) {
-        if (e == d) continue;
-        const int plane = plane_index(std::min(d, e), std::max(d, e));
-        const Range wall = edges_on_side(grid_, box_, d, e, upper);
-        const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
-        const double half = 0.5 * grid_.h[d];
-        double *own = kinetic_edge_[plane].data(), *edge = mu_edge_[plane].data();
-        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
-          const double before = own[c];
-          const double hold =
-              0.25 * half / slip *
-              (pressure[c] + pressure[c - s] + pressure[c - t] + pressure[c - s - t]);  // [Pa s]
-          own[c] = before > 0.0 ? before * hold / (before + hold) : 0.0;
-          edge[c] += own[c] - before;
-        });
-      }
-    }
-  }
 }
 
 // Grains stick to an obstacle, whose surface is half a cell from the faces beside it; of the kinetic

@@ -47,7 +47,7 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
       total += sum_over_edges(
           grid_, d, e, [=](std::ptrdiff_t c) { return edge[c] > 0.0 ? tau[c] * tau[c] / edge[c] : 0.0; });
       // of an edge's dissipation per kinetic viscosity of a cell beside it: the square of its strain, less
-      // where a Coulomb wall bears less than the mean kinetic viscosity around, or grains slip on bumps
+      // where a wall bears less than the mean kinetic viscosity around
       const Field& of_edges = kinetic_edge_[plane_index(d, e)];
       const double* slipping = of_edges.empty() ? nullptr : of_edges.data();
       const auto squared = [=](std::ptrdiff_t c) {

@@ -1,6 +1,13 @@
 #include "solver/operators/solid_momentum.hpp"
 
 namespace granvof {
+namespace {
+
+// Of the friction solve within a step. From rest slip grows by the ratio of what drives to what holds in
+// each.
+constexpr int most_passes = 40;
+
+}  // namespace
 
 SolidMomentum::SolidMomentum(const Grid& grid, const Scene& scene, const Boundary& boundary)
     : grid_(grid), boundary_(boundary), friction_(grid, scene, boundary), mass_(grid), rhs_(grid) {}
@@ -9,8 +16,16 @@ linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumP
                                     const FaceInertia& inertia, const InterphaseDrag& drag,
                                     const Rheology& rheology, const Aperture& aperture, State& next) {
   set_balance(dt, now, predicted, inertia, drag, aperture, next);
-  const linear::Report report =
-      friction_.solve(mass_, rhs_, inertia, aperture, rheology, now.u_strain, next.u_s);
+  linear::Report report = friction_.solve(mass_, rhs_, inertia, aperture, rheology, now.u_strain, next.u_s);
+  next.u_strain = now.u_strain;
+  const auto settled = [&](int pass) {
+    return pass > 1 && !friction_.slips_otherwise(next.u_strain, next.u_s);
+  };
+  for (int pass = 1; friction_.has_coulomb_walls() && pass < most_passes && !settled(pass); ++pass) {
+    next.u_strain = next.u_s;
+    boundary_.fill_velocity(next.u_strain, Phase::solid);
+    report = friction_.solve_again(mass_, rhs_, inertia, aperture, rheology, next.u_strain, next.u_s);
+  }
   recover_fluid(dt, predicted, inertia, drag, next);
   next.u_strain = next.u_s;
   return report;
