@@ -4,7 +4,7 @@ second is empty where it is."""
 import shutil
 
 from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, reading, scarce, surroundings, threads
-from faults_tried.bench import SAMPLE, NotTried, TableError, refused
+from faults_tried.bench import PATIENCE, SAMPLE, NotTried, TableError, refused
 
 
 PROGRAMS = ("solver/granvof", "compare/granvof-compare", "reference/demvof/demvof")
@@ -56,7 +56,7 @@ def no_programs(bench, entry):
         shutil.copy(bench.granvof, place / "build" / name)
         way(place / "build" / name, bench.chance)
         (place / "out").mkdir()
-        ended = bench.call(bench.filled(command, programs=place / "build", work=place / "out"))
+        ended = bench.call(bench.filled(command, programs=place / "build", work=place / "out"), patience=entry.get("patience", PATIENCE))
         yield f"{' '.join(command[:2])}, {name} {how}", not_said(ended)
         bench.drop(place / "any")
 

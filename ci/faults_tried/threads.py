@@ -39,15 +39,15 @@ def tools():
     return compiler, archers[-1]
 
 
-def under_it(bench, command, archer):
-    """How a program ends under the sanitizer; TableError where Archer was not there."""
-    environment = {"OMP_TOOL_LIBRARIES": str(archer), "ARCHER_OPTIONS": "verbose=1",
+def under_it(bench, command, archer, threads=2, alone=False):
+    """How a program ends under the sanitizer; TableError where Archer was not there. `alone`: the program may do without OpenMP."""
+    environment = {"OMP_TOOL_LIBRARIES": str(archer), "ARCHER_OPTIONS": "verbose=1", "OMP_NUM_THREADS": str(threads),
                    "TSAN_OPTIONS": f"ignore_noninstrumented_modules=1 exitcode={FOUND}"}
     ended = bench.call(command, environment=environment, patience=PATIENCE)
     said = ended.stderr.decode(errors="replace") + ended.stdout.decode(errors="replace") if ended else ""
-    if "Archer detected OpenMP application with TSan" not in said:
+    if not alone and "Archer detected OpenMP application with TSan" not in said:
         raise TableError(f"Archer was not loaded: {said[-200:]!r}")
-    return ended.returncode, said
+    return ended and ended.returncode, said
 
 
 def races(code, said):
@@ -55,27 +55,43 @@ def races(code, said):
         f"exit code {code}: " + said[max(0, said.find("WARNING: ThreadSanitizer")):][:300]
 
 
-def thread_sanitizer(bench, entry):
-    """Two threads under the thread sanitizer: silent. Not in a sample: it builds the solver a second time."""
-    if bench.sample:
-        return
-    compiler, archer = tools()
+def seen(bench, compiler, archer):
+    """Whether a race is told from a reduction: without it silence says nothing."""
     place = bench.place()
     (place / "race.cpp").write_text(RACE)
     for name, define, found in (("a race is seen", ["-DRACE"], True), ("a reduction is none", [], False)):
         built = subprocess.run([compiler, *FLAGS, "-fopenmp", *define, "race.cpp", "-o", "race"], cwd=place, capture_output=True, text=True)
         if built.returncode != 0:
             raise NotTried(f"clang++ with the thread sanitizer builds nothing: {built.stderr.strip()[:150]}")
-        code, said = under_it(bench, [place / "race"], archer)
+        code, _ = under_it(bench, [place / "race"], archer)
         yield name, "" if (code == FOUND) == found else f"exit code {code}"
+
+
+def built(bench, compiler, targets):
+    """The build folder with these targets under the sanitizer."""
     build = bench.build.parent / "threads"
     configure = ["cmake", "-S", bench.root, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_COMPILER={compiler}",
                  f"-DCMAKE_CXX_FLAGS={' '.join(FLAGS)}", "-DGRANVOF_REFERENCE=OFF"]
-    for command in (configure, ["cmake", "--build", build, "--target", "granvof_program", "--parallel", str(os.cpu_count())]):
+    for command in (configure, ["cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", *targets]):
         made = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         if made.returncode != 0:
             raise TableError(f"{command[0]} {command[1]}: {(made.stdout + made.stderr).strip()[-300:]}")
-    for case in entry["cases"]:
-        sets = [word for override in entry["set"] for word in ("--set", override)]
-        command = [build / "solver/granvof", "run", case, *sets, "--threads", "2", "--out", bench.place() / "run"]
-        yield f"{case} with two threads", races(*under_it(bench, command, archer))
+    return build
+
+
+def thread_sanitizer(bench, entry):
+    """Several threads under the thread sanitizer: silent. Not in a sample: it builds the solver a second time."""
+    if bench.sample:
+        return
+    compiler, archer = tools()
+    yield from seen(bench, compiler, archer)
+    tests = entry.get("tests", [])
+    build = built(bench, compiler, ["granvof_program", *tests])
+    for threads in entry["threads"]:
+        for case in entry.get("cases", []):
+            sets = [word for override in entry["set"] for word in ("--set", override)]
+            command = [build / "solver/granvof", "run", case, *sets, "--threads", str(threads), "--out", bench.place() / "run"]
+            yield f"{case} with {threads} threads", races(*under_it(bench, command, archer, threads))
+        for test in tests:
+            program = next(path for path in sorted(build.glob(f"solver/**/{test}")) if path.is_file())
+            yield f"{test} with {threads} threads", races(*under_it(bench, [program], archer, threads, alone=True))

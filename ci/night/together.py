@@ -1,5 +1,6 @@
 """Processes that end with the one that started them, however it ends, and one user of a directory at a time."""
 
+import atexit
 import ctypes
 import fcntl
 import os
@@ -34,19 +35,51 @@ def end_cleanly_on_signals():
             signal.signal(number, lambda signum, frame: sys.exit(128 + signum))
 
 
+class Holding:
+    """A directory's lock, held until close(), the end of a `with`, or that of this process; the file goes with it."""
+
+    def __init__(self, path, file):
+        self.path, self.file, self.process = path, file, os.getpid()
+        atexit.register(self.close)
+
+    def close(self):
+        if not self.file.closed and self.process == os.getpid():  # while it is held: nobody else's is removed
+            self.path.unlink(missing_ok=True)
+        self.file.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
+
+def is_at(file, path):
+    """Whether an open file is still the one of that name: who held it may have removed it meanwhile."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), os.stat(path))
+    except FileNotFoundError:
+        return False
+
+
 def hold(directory, who):
-    """Holds `directory`/.lock until this process ends; the open file is returned. Held where another process has it."""
+    """Takes `directory`/.lock, until the Holding that is returned is closed. Held where another process has it."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    lock = open(directory / ".lock", "a+", encoding="utf-8")  # inherited by nobody: closed on exec
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        lock.seek(0)
-        holder = lock.read().strip() or "another process"
+    path = directory / ".lock"
+    while True:
+        lock = open(path, "a+", encoding="utf-8")  # inherited by nobody: closed on exec
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            lock.seek(0)
+            holder = lock.read().strip() or "another process"
+            lock.close()
+            raise Held(f"{directory} is in use by {holder}") from None
+        if is_at(lock, path):
+            break
         lock.close()
-        raise Held(f"{directory} is in use by {holder}") from None
     lock.truncate(0)
     lock.write(f"{who} (process {os.getpid()})\n")
     lock.flush()
-    return lock
+    return Holding(path, lock)

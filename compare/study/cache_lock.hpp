@@ -7,14 +7,20 @@
 
 namespace granvof::compare {
 
-// Held while it lives; a program that is killed lets go too.
+// Held while it lives, and the file gone with it; a program that is killed lets go too, and leaves the file.
 class CacheLock {
  public:
   // Takes CACHE/lock, and writes into it who has it. Throws std::runtime_error saying who holds it where
   // another does, OutputError where the file cannot be made.
   explicit CacheLock(const std::filesystem::path& cache);
+  CacheLock(const CacheLock&) = delete;
+  CacheLock& operator=(const CacheLock&) = delete;
+  CacheLock(CacheLock&&) = delete;
+  CacheLock& operator=(CacheLock&&) = delete;
+  ~CacheLock();
 
  private:
+  std::filesystem::path path_;
   Descriptor file_;
 };
 

@@ -60,10 +60,10 @@ fs::path made(const fs::path& directory) {
 
 CachedRunner::CachedRunner(RunnerOptions options)
     : options_(std::move(options)),
-      lock_(made(options_.cache)),
-      engine_({{options_.program.string()}, 1, options_.cache / "accounts.csv"}),
       version_(version_of(options_.program)),
-      identity_(identity_of_program(options_.program, version_)) {}
+      identity_(identity_of_program(options_.program, version_)),
+      lock_(made(options_.cache)),
+      engine_({{options_.program.string()}, 1, options_.cache / "accounts.csv"}) {}
 
 Order CachedRunner::order_of(const Job& job) const {
   return order_of(job, load_scene(job.case_file, job.set));

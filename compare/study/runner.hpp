@@ -79,10 +79,11 @@ class CachedRunner : public Runner {
   Outcome make(const Scene& scene, const Order& order);
 
   RunnerOptions options_;
-  std::optional<CacheLock> lock_;
-  Engine engine_;
+  // Before the cache is made and locked: nothing is written where the program is none.
   std::string version_;   // as `granvof --version` states it
   std::string identity_;  // of the program
+  CacheLock lock_;
+  Engine engine_;
 };
 
 }  // namespace granvof::compare

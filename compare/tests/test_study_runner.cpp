@@ -169,9 +169,36 @@ TEST_F(StudyRunner, ASecondStudyInTheSameCacheIsToldWhoHasIt) {
   EXPECT_NO_THROW(runner("exit 0"));
 }
 
-TEST_F(StudyRunner, AProgramThatIsNotThereIsSaid) {
-  const RunnerOptions options{"/nonexistent/granvof", root_ / "cache"};
-  EXPECT_THROW(CachedRunner{options}, std::runtime_error);
+TEST_F(StudyRunner, LeavesNoLockBehind) {
+  const fs::path lock = root_ / "cache/lock";
+  {
+    const CachedRunner made = runner("exit 0");
+    EXPECT_TRUE(fs::exists(lock));
+  }
+  EXPECT_FALSE(fs::exists(lock));
+}
+
+// A study that was killed leaves its own; what somebody else has put there is not written over.
+TEST_F(StudyRunner, TakesOverALockOfAStudyAlone) {
+  const fs::path lock = root_ / "cache/lock";
+  fs::create_directory(root_ / "cache");
+  std::ofstream(lock) << "process 1 since 2020-01-01T00:00:00Z: killed";
+  EXPECT_NO_THROW(runner("exit 0"));
+  std::ofstream(lock) << "of the front door";
+  EXPECT_THROW(runner("exit 0"), std::runtime_error);
+  std::string kept;
+  std::getline(std::ifstream(lock), kept);
+  EXPECT_EQ(kept, "of the front door");
+}
+
+TEST_F(StudyRunner, AProgramThatIsNoneIsSaidBeforeAnythingIsWritten) {
+  fs::create_directory(root_ / "directory");
+  std::ofstream(root_ / "garbage") << "none";
+  fs::permissions(root_ / "garbage", fs::perms::owner_all);
+  for (const char* program : {"missing", "directory", "garbage"}) {
+    EXPECT_THROW(CachedRunner({root_ / program, root_ / "cache"}), std::runtime_error) << program;
+    EXPECT_FALSE(fs::exists(root_ / "cache")) << program;
+  }
 }
 
 }  // namespace

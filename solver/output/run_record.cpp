@@ -198,6 +198,7 @@ std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_js
     for (const auto& w : json.value("warnings", ordered_json::array()))
       run.warnings.push_back({w.at("monitor"), w.at("time"), w.at("value"), w.at("limit"), w.at("meaning")});
     run.has_checkpoint = !json.at("exit").value("resume_from", ordered_json()).is_null();
+    run.time = json.at("exit").value("time", 0.0);
     const ordered_json& series = json.at("files").at("series.csv");
     run.series.rows = series.at("rows");
     run.series.sha256 = series.at("sha256");

@@ -123,6 +123,7 @@ struct ExistingRun {
   std::string resolved_case;
   std::vector<Warning> warnings;
   bool has_checkpoint = false;  // as it says itself
+  double time = 0.0;            // how far it came [s]
   SeriesFacts series;           // rows and digest alone
 };
 std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_json);

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* series_name = "series.csv";
 constexpr const char* record_name = "run.json";
+constexpr double roundoff = 1e-9;  // times that differ by less are the same
 
 // What a run leaves in its directory beside run.json and its fields, and drafts of a run that was killed.
 constexpr std::array owned_names = {"checkpoint.h5", series_name, "run.log"};
@@ -122,8 +123,12 @@ RunWriter RunWriter::fresh(const fs::path& directory, const Scene& scene, const 
                       "it holds files but no run of granvof; give an empty or new directory");
   }
   if (existing && !force) {
-    if (const std::string other = difference(*existing, scene, start); !other.empty())
-      throw OutputError("write to", directory, other + "; give another directory, or --force to replace it");
+    std::string lost = difference(*existing, scene, start);
+    if (lost.empty() && existing->time > scene.times.end * (1.0 + roundoff))
+      lost = fmt::format("it is a run that came to t = {:.9g} s, this one ends at {:.9g} s", existing->time,
+                         scene.times.end);
+    if (!lost.empty())
+      throw OutputError("write to", directory, lost + "; give another directory, or --force to replace it");
   }
   return writer;
 }

@@ -9,6 +9,7 @@
 
 #include "solver/closures/elastic_energy.hpp"
 #include "solver/plausibility/plausibility_rows.hpp"
+#include "solver/scene/keys.hpp"
 #include "solver/scene/scales.hpp"
 #include "solver/scene/side_names.hpp"
 
@@ -18,11 +19,6 @@ namespace {
 
 double smallest_cell(const Scene& s) {
   return *std::min_element(s.grid.spacing.begin(), s.grid.spacing.begin() + s.dimensions);
-}
-double shortest_of_bed(const Scene& s) {
-  double shortest = infinity;
-  for (int axis = 0; axis < s.dimensions; ++axis) shortest = std::min(shortest, extent(s.bed->box, axis));
-  return shortest;
 }
 
 // Energy that the contacts of the bed hold at solid fraction f, over that of its own height above its base
@@ -63,6 +59,13 @@ Number thinnest_liquid(const Scene& s) {
   return thinnest;
 }
 
+// Of the bed along the axis, or the axes, in which its bands follow each other [m].
+double longest_of_bands(const Scene& s) {
+  const double along = extent(s.bed->box, 0), up = extent(s.bed->box, 1);
+  if (s.bed->colour == ColourPattern::layers) return up;
+  return s.bed->colour == ColourPattern::columns ? along : std::max(along, up);
+}
+
 double off_the_bed(const Scene& s) {
   const Box& bed = s.bed->box;
   return std::min(std::fabs(s.gate->position - bed.lower[0]), std::fabs(s.gate->position - bed.upper[0]));
@@ -75,35 +78,35 @@ double face_of_gate(const Scene& s) {
 }
 constexpr double off_a_face = 1e-6;  // from how much on, in cells: rounding of lengths in a case file
 
+// Least time between two instants whose fields are written, or from the start to the first [s].
+Number closest_fields(const Scene& s) {
+  Number closest;
+  double before = 0.0;
+  for (const double time : s.times.field_times) {
+    if (time > before && (!closest || time - before < *closest)) closest = time - before;
+    before = time;
+  }
+  return closest;
+}
+
 double wall_speed(const Side& side) {
   return std::hypot(side.velocity[0], side.velocity[1], side.velocity[2]);
 }
 
-// [s]: that of the scene; or, where that takes longer, the time in which a grain settles or rises by a cell
-// in the liquid (Stokes), which is how fast a suspension changes.
-double time_of_change(const Scene& s) {
-  const double time = scales_of(s).time();
-  if (!s.bed || s.liquid_boxes.empty()) return time;
-  const double excess = std::fabs(s.solid.density - s.liquid.density);
-  const double d = s.solid.diameter;
-  const double stokes = excess * s.gravity * d * d / (18.0 * s.liquid.viscosity);
-  return std::max(time, s.grid.spacing[1] / stokes);
-}
-
-// Share of time_of_change that a step may take: s1 on 5 mm with steps up to 0.07 / 0.14 / 0.28 of it has its
-// front 0.4 / 0.9 / 1.1 % farther than with 0.014.
-constexpr double longest_step = 0.2;
-constexpr double shortest_step = 1e-6;  // below it no scheme of first order in time gains a digit
-constexpr double longest_hold = 1e3;    // times of the scene
-
 // --- the table -------------------------------------------------------------------------------------------
 
 constexpr double thinnest_of_cell = 0.1;  // of liquid, in cells: less shows in no profile
+constexpr double least_share = 1e-4;      // of what comes in: less is not there
+constexpr double shortest_checkpoint = 0.1,
+                 longest_checkpoint = 1e7;  // between two, of a clock on the wall [s]
 
-constexpr Usual of_grains{1e-5, 0.1};  // their diameter [m]
-// A diameter that is no grain's says nothing about the cells or the bed.
-bool is_grain(const Scene& s) {
-  return s.solid.diameter >= of_grains.lower && s.solid.diameter <= of_grains.upper;
+// Of an outlet: ten tanks full of its heaviest fluid; without gravity what sends that fluid through the tank
+// a thousand times in a run [Pa].
+double largest_pressure(const Scene& s) {
+  const double rho = std::max(s.gas.density, s.liquid.density);
+  const double size = *std::max_element(s.tank.begin(), s.tank.begin() + s.dimensions);
+  const double speed = 1e3 * size / s.times.end;
+  return s.gravity > 0.0 ? 10.0 * rho * s.gravity * size : rho * speed * speed;
 }
 
 std::vector<Row> tank_rows() {
@@ -130,18 +133,23 @@ std::vector<Row> tank_rows() {
 }
 
 std::vector<Row> grid_rows() {
-  return {
-      row(
-          "grid.dx", "m",
-          [](const Scene& s) { return is_grain(s) ? if_bed(s, smallest_cell(s)) : std::nullopt; },
-          [](const Scene& s) {
-            return Usual{0.25 * s.solid.diameter, 1e3 * s.solid.diameter};
-          },
-          [](const Scene& s) {
-            return fmt::format("a cell's average needs grains in it, solid.diameter = {} m",
-                               s.solid.diameter);
-          }),
-  };
+  std::vector<Row> rows;
+  for (int axis = 0; axis < 3; ++axis) {
+    rows.push_back(row(
+        std::string("grid.d") + "xyz"[axis], "m",
+        [axis](const Scene& s) -> Number {
+          const double h = s.grid.spacing[axis];
+          const bool as_in_x = axis > 0 && std::fabs(h - s.grid.spacing[0]) < off_a_face * h;
+          return axis >= s.dimensions || as_in_x || !is_grain(s) ? std::nullopt : if_bed(s, h);
+        },
+        [](const Scene& s) {
+          return Usual{0.25 * s.solid.diameter, 1e3 * s.solid.diameter};
+        },
+        [](const Scene& s) {
+          return fmt::format("a cell's average needs grains in it, solid.diameter = {} m", s.solid.diameter);
+        }));
+  }
+  return rows;
 }
 
 std::vector<Row> wall_rows() {
@@ -150,14 +158,50 @@ std::vector<Row> wall_rows() {
     const std::string name = "walls." + std::string(case_file::side_names[side]);
     rows.push_back(row(
         name + ".solid_friction", "",
-        [side](const Scene& s) -> Number { return s.sides[side].solid.friction; }, Usual{0.0, steepest},
+        [side](const Scene& s) -> Number { return s.sides[side].solid.friction; }, of_friction,
         "the tangent of an angle; degrees?"));
+    rows.push_back(row(
+        name + ".bumpiness", "degrees",
+        [side](const Scene& s) { return positive(s.sides[side].solid.bumpiness); }, Usual{1.0, 90.0},
+        "bumps that no grain feels; a tangent, or radians?"));
+    rows.push_back(row(
+        name + ".bump_restitution", "",
+        [side](const Scene& s) -> Number {
+          const PhaseWall& wall = s.sides[side].solid;
+          return wall.kind == WallKind::bumpy && wall.restitution != s.solid.restitution
+                     ? Number(wall.restitution)
+                     : std::nullopt;
+        },
+        of_restitution, "glass beads have 0.9"));
     rows.push_back(row(
         name + ".velocity", "m/s", [side](const Scene& s) -> Number { return wall_speed(s.sides[side]); },
         Usual{0.0, 50.0}, "a wall that passes a laboratory in a blink; mm/s?"));
     rows.push_back(row(
         name + ".inflow", "m/s", [side](const Scene& s) { return positive(s.sides[side].inflow.speed); },
         Usual{1e-6, 50.0}, "a jet that crosses a laboratory in a blink; mm/s?"));
+    rows.push_back(row(
+        name + ".inflow_solid_fraction", "",
+        [side](const Scene& s) { return positive(s.sides[side].inflow.solid_fraction); },
+        Usual{least_share, 1.0}, "next to nothing comes in; per cent, or a concentration in kg/m3?"));
+    rows.push_back(row(
+        name + ".inflow_liquid_share", "",
+        [side](const Scene& s) { return positive(s.sides[side].inflow.liquid_share); },
+        Usual{least_share, 1.0}, "next to nothing of what comes in; 0 is gas alone, 1 liquid"));
+    rows.push_back(row(
+        name + ".outflow_pressure", "Pa",
+        [side](const Scene& s) { return positive(std::fabs(s.sides[side].outflow.pressure)); },
+        [](const Scene& s) {
+          return Usual{0.0, largest_pressure(s)};
+        },
+        "against the weight of what fills the tank, or what sets it in motion; it counts from that of the "
+        "air"));
+    rows.push_back(row(
+        name + ".outflow_level", "m",
+        [side](const Scene& s) { return positive(s.sides[side].outflow.level); },
+        [](const Scene& s) {
+          return Usual{thinnest_of_cell * s.grid.spacing[1], infinity};
+        },
+        "the grid does not resolve liquid that is so thin"));
   }
   return rows;
 }
@@ -218,7 +262,7 @@ std::vector<Row> solid_rows() {
           "larger than a cell (grid.dx), whose average needs grains in it"),
       row(
           "solid.restitution", "", [](const Scene& s) { return if_bed(s, s.solid.restitution); },
-          Usual{0.05, 0.99}, "glass beads have 0.9; at 1 agitation never decays"),
+          of_restitution, "glass beads have 0.9; at 1 agitation never decays"),
       row(
           "solid.friction", "", [](const Scene& s) { return if_bed(s, s.solid.friction); },
           Usual{0.05, steepest},
@@ -275,9 +319,9 @@ std::vector<Row> bed_rows() {
                                                                     : std::nullopt;
           },
           [](const Scene& s) {
-            return Usual{smallest_cell(s), infinity};
+            return Usual{smallest_cell(s), longest_of_bands(s)};
           },
-          "bands finer than a cell are grey"),
+          "bands finer than a cell are grey, and one that the bed fills alone shows no mixing"),
       row(
           "gate.position", "m",
           [](const Scene& s) {
@@ -318,7 +362,7 @@ std::vector<Row> run_rows() {
       row(
           "time.hold", "s", [](const Scene& s) -> Number { return positive(s.times.hold); },
           [](const Scene& s) {
-            return Usual{0.0, longest_hold * scales_of(s).time()};
+            return Usual{shortest_step * scales_of(s).time(), longest_hold * scales_of(s).time()};
           },
           [](const Scene& s) {
             return fmt::format(
@@ -352,28 +396,61 @@ std::vector<Row> run_rows() {
           "numerics.linear_tolerance", "",
           [](const Scene& s) -> Number { return s.numerics.linear_tolerance; }, Usual{1e-10, 0.3},
           "solves that hardly reduce the residual, or to rounding, cost steps"),
+      row(
+          "output.field_times", "s", closest_fields,
+          [](const Scene& s) {
+            return Usual{shortest_step * scales_of(s).time(), infinity};
+          },
+          "between two of them: the run has to meet both, by a step that is as short"),
+      row(
+          "output.checkpoint_interval", "s",
+          [](const Scene& s) { return positive(s.times.checkpoint_interval); },
+          Usual{shortest_checkpoint, longest_checkpoint},
+          "of a clock on the wall: one after every step costs more than the step, one in a year is none; 0 "
+          "for "
+          "the end alone"),
   };
 }
 
 std::vector<Row> all_rows() {
   std::vector<Row> all;
-  for (const auto& part :
-       {tank_rows, grid_rows, wall_rows, fluid_rows, solid_rows, contact_rows, bed_rows, run_rows}) {
+  for (const auto& part : {tank_rows, grid_rows, wall_rows, fluid_rows, solid_rows, contact_rows, bed_rows,
+                           run_rows, reference_rows}) {
     for (Row& r : part()) all.push_back(std::move(r));
   }
   return all;
 }
 
+// Of a key, or of the first of a table, among all keys.
+std::ptrdiff_t place_of(const std::string& key) {
+  const auto& all = case_file::keys();
+  const auto found =
+      std::ranges::find_if(all, [&](const case_file::Key& k) { return k.name.starts_with(key); });
+  return found - all.begin();
+}
+
 }  // namespace
+
+double time_of_change(const Scene& s) {
+  const double time = scales_of(s).time();
+  if (!s.bed || s.liquid_boxes.empty()) return time;
+  const double excess = std::fabs(s.solid.density - s.liquid.density);
+  const double d = s.solid.diameter;
+  const double stokes = excess * s.gravity * d * d / (18.0 * s.liquid.viscosity);
+  return std::max(time, s.grid.spacing[1] / stokes);
+}
+
 }  // namespace plausible
 
 std::vector<Implausible> plausibility(const Scene& scene) {
   std::vector<Implausible> found;
-  for (const plausible::Row& r : plausible::all_rows()) {
-    const bool named = std::ranges::any_of(found, [&](const Implausible& i) { return i.key == r.key; });
-    if (named) continue;
-    if (auto finding = r.look(scene)) found.push_back(std::move(*finding));
-  }
+  const auto add = [&](std::optional<Implausible> finding) {
+    const auto same = [&](const Implausible& other) { return other.key == finding->key; };
+    if (finding && std::ranges::none_of(found, same)) found.push_back(std::move(*finding));
+  };
+  for (Implausible& idle : plausible::idle_keys(scene)) add(std::move(idle));
+  for (const plausible::Row& r : plausible::all_rows()) add(r.look(scene));
+  std::ranges::stable_sort(found, {}, [](const Implausible& i) { return plausible::place_of(i.key); });
   return found;
 }
 

@@ -1,6 +1,7 @@
 // Rows of the table of plausibility: a key, and what is said of its value in a scene.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -65,16 +66,6 @@ Row row(const std::string& key, const std::string& unit, Value value, Range rang
           }};
 }
 
-// A parameter of a choice that is not made: at its default nobody asked for it.
-template <class Value, class Used>
-Row idle(const std::string& key, Value value, Used used, const std::string& without) {
-  return {key, [=](const Scene& scene) -> std::optional<Implausible> {
-            if (used(scene) || value(scene.contact) == value(Contact{})) return std::nullopt;
-            return Implausible{key, fmt::format("{}", value(scene.contact)), "its default",
-                               "it has no effect without " + without};
-          }};
-}
-
 // A part that is described, but stands nowhere in the scene.
 template <class Idle>
 Row missing(const std::string& key, Idle is_missing, const std::string& usual, const std::string& reason) {
@@ -105,7 +96,45 @@ inline double bed_height(const Scene& s) {
   return s.bed ? extent(s.bed->box, 1) : infinity;
 }
 
-// Of [contact]; the others stand with the table.
+inline double shortest_of_bed(const Scene& s) {
+  double shortest = infinity;
+  for (int axis = 0; axis < s.dimensions; ++axis) shortest = std::min(shortest, extent(s.bed->box, axis));
+  return shortest;
+}
+inline bool is_inlet_of_grains(const Side& side) {
+  return side.kind == SideKind::inlet && side.inflow.solid_fraction > 0.0;
+}
+inline bool has_grains(const Scene& s) {
+  return s.bed || std::ranges::any_of(s.sides, is_inlet_of_grains);
+}
+
+// --- ranges that several tables share --------------------------------------------------------------------
+
+inline constexpr Usual of_grains{1e-5, 0.1};  // their diameter [m]
+// A diameter that is no grain's says nothing about cells, bed or steps.
+inline bool is_grain(const Scene& s) {
+  return s.solid.diameter >= of_grains.lower && s.solid.diameter <= of_grains.upper;
+}
+inline constexpr Usual of_friction{0.0, steepest};    // coefficients [-]
+inline constexpr Usual of_restitution{0.05, 0.99};    // [-]
+inline constexpr Usual of_random_packing{0.5, 0.74};  // of spheres, up to a crystal [-]
+inline constexpr double stiffest = 1e12;              // diamond [Pa]
+inline constexpr double shortest_step = 1e-6;  // in times of the scene: below it no scheme of first order in
+                                               // time gains a digit
+inline constexpr double longest_hold = 1e3;    // likewise
+// Share of time_of_change() that a step may take: s1 on 5 mm with steps up to 0.07 / 0.14 / 0.28 of it has
+// its front 0.4 / 0.9 / 1.1 % farther than with 0.014.
+inline constexpr double longest_step = 0.2;
+
+// [s]: that of the scene; or, where that takes longer, the time in which a grain settles or rises by a cell
+// in the liquid (Stokes), which is how fast a suspension changes.
+double time_of_change(const Scene& s);
+
+// Of [contact] and of [reference]; the others stand with the table.
 std::vector<Row> contact_rows();
+std::vector<Row> reference_rows();
+
+// Keys that say something beside what they are without being stated, but act on nothing in the scene.
+std::vector<Implausible> idle_keys(const Scene& scene);
 
 }  // namespace granvof::plausible

@@ -160,7 +160,9 @@ int parse_and_run(int argc, char** argv, const granvof::Communicator* processes)
       ->type_name("N");
   CLI::Option* resume =
       run_command.add_flag("--resume", arguments.run.resume, "Go on from the run directory's checkpoint");
-  run_command.add_flag("--force", arguments.run.force, "Replace a run of another case in the run directory")
+  run_command
+      .add_flag("--force", arguments.run.force,
+                "Replace a run of another case, or one that came further, in the run directory")
       ->excludes(resume);
   std::string stop_after;
   run_command

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "solver/scene/completion.hpp"
@@ -67,7 +69,11 @@ void complete_reference(Completion& c) {
   c.rule({"scene.dimensions", "tank.size", "reference.cell"}, [&] { cells(c); });
   c.rule({"reference.dt", "reference.coarse_graining", "reference.fluid_dt"}, [&] { steps_of_reference(c); });
   c.rule({"reference.seeds"}, [&] {
-    if (c.d.reference.settings.seeds.empty()) c.refuse("reference.seeds", "at least one seed");
+    std::vector<int> seeds = c.d.reference.settings.seeds;
+    std::ranges::sort(seeds);
+    if (seeds.empty()) c.refuse("reference.seeds", "at least one seed");
+    if (std::ranges::adjacent_find(seeds) != seeds.end())
+      c.refuse("reference.seeds", "each seed once: the same run twice has no spread");
   });
   c.rule({"reference.release", "gate"}, [&] { release(c); });
   c.rule({"reference.gate_friction", "gate"}, [&] {

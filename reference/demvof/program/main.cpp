@@ -81,7 +81,7 @@ int parse_and_run(int argc, char** argv) {
   add_places(*run_command, arguments);
   run_command->add_flag("--gate-closed", arguments.record.gate_closed, "Control run: the gate stays closed");
   run_command->add_flag("--force", arguments.record.force,
-                        "Replace a run of another case in the run directory");
+                        "Replace a run of another case, or one that came further, in the run directory");
   run_command->add_flag("--progress", arguments.record.progress,
                         "Say how far the run is, where stderr is no terminal too");
 

@@ -77,6 +77,7 @@ const std::vector<Refused> values{
      {"scene.name: got \"aaa", "at most 100 bytes"}},
     {"date", {"time.end=2020-01-01"}, {"time.end: got 2020-01-01"}},
     {"seed_fraction", {"reference.seeds=[1.5]"}, {"reference.seeds: got [1.5]", "list of integers"}},
+    {"seed_twice", {"reference.seeds=[1, 1]"}, {"reference.seeds: got [1, 1]", "each seed once"}},
     {"no_seed", {"reference.seeds=[]"}, {"reference.seeds: got []", "at least one seed"}},
     {"poisson", {"reference.poisson=0.5"}, {"reference.poisson: got 0.5", "(-1, 0.5)"}},
     {"reference_dt",
