@@ -176,24 +176,16 @@ Curve grain_front_curve(const Run& run) {
   return run.curve("front_dilute");
 }
 
-Curve solid_height_curve(const Run& run) {
-  return run.curve("y_solid_mean");
-}
-
-Curve interface_height_curve(const Run& run) {
-  return run.curve("interface_height");
-}
-
 Measured grain_front_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(grain_front_curve(run), *p.at), "no grain front at that time");
 }
 
 Measured solid_height_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(solid_height_curve(run), *p.at), "no solids at that time");
+  return measured(value_at(run.curve("y_solid_mean"), *p.at), "no solids at that time");
 }
 
 Measured interface_height_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(interface_height_curve(run), *p.at), "no interface at that time");
+  return measured(value_at(run.curve("interface_height"), *p.at), "no interface at that time");
 }
 
 Measured liquid_front_at(const Run& run, const Parameters& p, const FindRun&) {
@@ -305,10 +297,6 @@ constexpr std::array table{
     MetricEntry{"liquid_front", "-", "x / a of the water front at tau = at", at_only, liquid_front_at},
     MetricEntry{"grain_front_curve", "m", "rms over t of grain_front's distance from the record's",
                 window_only, not_alone, grain_front_curve},
-    MetricEntry{"solid_height_curve", "m", "the same of solid_height", window_only, not_alone,
-                solid_height_curve},
-    MetricEntry{"interface_height_curve", "m", "the same of interface_height", window_only, not_alone,
-                interface_height_curve},
     MetricEntry{"liquid_front_curve", "-", "rms over tau of liquid_front's distance from the record's",
                 window_only, not_alone, scaled_liquid_front},
     MetricEntry{
