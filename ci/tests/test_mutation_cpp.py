@@ -136,6 +136,14 @@ def test_all_that_a_loop_does_may_be_dropped(tmp_path):
     assert [subprocess.run([tmp_path / "f"], env={"GRANVOF_MUTANT": number}).returncode for number in ("", "1")] == [5, 0]
 
 
+def test_a_constant_of_a_list_is_set_when_the_program_starts(tmp_path):
+    text = "struct Unit {\n  int name, seconds;\n};\nconstexpr Unit units[] = {Unit{1, 60}, Unit{2, 36}};\nint f(int i) { return units[i].seconds; }\n"
+    faults = [(text.index(was), text.index(was) + 2, now, number) for was, now, number in (("60", "61", "2"), ("36", "30", "1"))]
+    (tmp_path / "f.cpp").write_text(cpp.switched(text, faults) + "int main(int n, char**) { return f(n); }\n")
+    assert subprocess.run(["g++", "-std=c++20", f"-I{ROOT}", "-o", tmp_path / "f", tmp_path / "f.cpp"]).returncode == 0
+    assert [subprocess.run([tmp_path / "f"], env={"GRANVOF_MUTANT": number}).returncode for number in ("", "1")] == [36, 30]
+
+
 def test_what_a_condition_returns_is_switched_behind_it():
     text = "double f(double a) {\n  if (a > g(0.0)) return 2.0 * a;\n  else if constexpr (b) return 5.0;\n  throw a;\n}\n"
     for was, now in [("2.0 * a", "3.0 * a"), ("5.0", "6.0")]:

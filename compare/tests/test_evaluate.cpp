@@ -325,6 +325,16 @@ TEST_F(Evaluate, AGrainFrontAsACurveIsHeldToTheBand) {
   EXPECT_EQ(banded.results[0].judgement.verdict, Verdict::within_band);
 }
 
+// A front of finite numbers whose squares are none.
+TEST_F(Evaluate, WhatIsNotFiniteIsRefused) {
+  write_run("s1", series(1e200));
+  write_record("seed1", 0.1, scene_.reference_hash);
+  const Evaluation evaluation = evaluate_row(curve_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_EQ(evaluation.results[0].note, "refused: the metric is not finite");
+  EXPECT_EQ(evaluation.unexpected(), 1);
+}
+
 // Who reads the rows is told which two runs one is made of.
 TEST_F(Evaluate, ARowOfTwoRunsNamesBoth) {
   write_run("s1", series(0.1));
