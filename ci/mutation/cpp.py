@@ -97,7 +97,7 @@ def whole(text, start, end):
         head = bare[:first]
         if re.search(r"\b(?:if\s+constexpr|static_assert)\s*\(\s*$", head):
             raise NoPlace(f"{text[first:last]!r} is decided by the compiler")
-        if re.search(r"\bconstexpr\b[^;{}()]*=\s*$", head):
+        if re.search(r"\bconstexpr\b[^;()]*[={][^;()]*$", head):  # of one, or within a list of them
             return first, last, "constant"
         return first, last, "expression"
     first = begin_of_statement(bare, start)
@@ -152,8 +152,8 @@ def switched(text, faults):
         reach = last
         constants += [sum(map(len, pieces[:-1]))] if kind == "constant" else []
     result = "".join(pieces) + text[reach:]
-    for place in reversed(constants):  # no longer known to the compiler: set when the program starts
-        at = result.rindex("constexpr", 0, place)
+    # No longer known to the compiler: set when the program starts. A list of several is one declaration.
+    for at in sorted({result.rindex("constexpr", 0, place) for place in constants}, reverse=True):
         result = result[:at] + "const" + result[at + len("constexpr"):]
     return after_first_comment(result)
 

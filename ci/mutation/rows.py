@@ -1,5 +1,6 @@
 """The rows of `make verify` against a fault: runs made again with it, those that notice most for their cost first, until
-a row changes its verdict."""
+a row changes its verdict. A row counts once every run that it reads is as it would be with the fault in the whole
+project: between a run with it and one without, any fault shows. Rows of what a run costs say how busy the machine is."""
 
 import os
 import shutil
@@ -22,7 +23,7 @@ class Rows:
         self.solver, self.compare = self.build / "solver/granvof", self.build / "compare/granvof-compare"
         self.dearest, self.budget = dearest, budget
         self.runs, self.reached, self.seconds = [], {}, {}
-        self.scenes = {}  # of a row: the run it judges
+        self.reads = {}  # of a row: the run it judges, and the one it is judged against, if any
         self.noticed = Counter()  # faults that each run has noticed in this call
 
     def plan(self):
@@ -54,8 +55,8 @@ class Rows:
                             self.scratch, environment)
         if ended.code not in (0, 1):
             return None
-        rows = json_of(out / "results.json")["results"]
-        self.scenes |= {row["id"]: row["scene"] for row in rows}
+        rows = [row for row in json_of(out / "results.json")["results"] if row["reference_kind"] != "aim"]
+        self.reads |= {row["id"]: [row[key] for key in ("scene", "against") if row.get(key)] for row in rows}
         return {row["id"]: row["verdict"] for row in rows}
 
     def traced(self, make):
@@ -107,7 +108,7 @@ class Rows:
         for run in self.runs:
             os.symlink(self.work / "runs" / run[0], place / run[0])
         if mutant.number in self.reached["check"]:
-            changed = self.changed(place, environment)
+            changed = self.changed(place, environment, due)
             if changed:
                 return "noticed", changed
         remaining, spend = self.in_order(due), self.seconds["check"]
@@ -124,9 +125,9 @@ class Rows:
                     self.noticed[run[0]] += 1
                     return "noticed", f"run {run[0]}: {ended.how}"
             remaining, spend = remaining[batch:], 2.0 * spend
-            changed = self.changed(place, environment)
+            changed = self.changed(place, environment, remaining)
             if changed:
-                self.noticed[self.scenes.get(changed.split(": ")[0])] += 1
+                self.noticed[self.reads.get(changed.split(": ")[0], [None])[0]] += 1
                 return "noticed", changed
         return "survived", ""
 
@@ -134,13 +135,15 @@ class Rows:
         """By what each has noticed so far for a second of its time."""
         return sorted(due, key=lambda run: -(1 + self.noticed[run[0]]) / max(self.seconds[run[0]], 0.01))
 
-    def changed(self, runs, environment):
-        """The first row with another verdict, or ''."""
+    def changed(self, runs, environment, remaining):
+        """The first row with another verdict, or ''; those that read one of the `remaining` runs, still without the
+        fault, are not asked."""
         now = self.verdicts(runs, environment, self.work / "verdicts-with-fault")
         if now is None:
             return "the comparison fails"
+        without = {run[0] for run in remaining}
         return next((f"{row}: {self.base.get(row, 'no row')} -> {now.get(row, 'no row')}" for row in {**self.base, **now}
-                     if now.get(row) != self.base.get(row)), "")
+                     if now.get(row) != self.base.get(row) and without.isdisjoint(self.reads.get(row, []))), "")
 
 
 def process_limit(seconds):

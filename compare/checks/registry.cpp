@@ -172,8 +172,12 @@ Measured solid_level_distance(const Run& run, const Parameters& p, const FindRun
 
 // --- values of a curve at a time ------------------------------------------------------------------------
 
+Curve grain_front_curve(const Run& run) {
+  return run.curve("front_dilute");
+}
+
 Measured grain_front_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run.curve("front_dilute"), *p.at), "no grain front at that time");
+  return measured(value_at(grain_front_curve(run), *p.at), "no grain front at that time");
 }
 
 Measured solid_height_at(const Run& run, const Parameters& p, const FindRun&) {
@@ -291,6 +295,10 @@ constexpr std::array table{
     MetricEntry{"interface_height", "m", "height of alpha = 0.5 in the profile over the tank at t = at",
                 at_only, interface_height_at},
     MetricEntry{"liquid_front", "-", "x / a of the water front at tau = at", at_only, liquid_front_at},
+    MetricEntry{"grain_front_curve", "m", "rms over t of grain_front's distance from the record's",
+                window_only, not_alone, grain_front_curve},
+    MetricEntry{"liquid_front_curve", "-", "rms over tau of liquid_front's distance from the record's",
+                window_only, not_alone, scaled_liquid_front},
     MetricEntry{
         "hydrostatic_distance", "-",
         "largest distance of P_c from that of a tank full of liquid at rest, over its largest, at the end",

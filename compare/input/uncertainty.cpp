@@ -24,6 +24,7 @@ constexpr std::array table{
     Entry{"run_out_quantile_curve", "front_quantile [m]", true},
     Entry{"front", "front_dense [m]", false},
     Entry{"grain_front", "front_dense [m]", false},
+    Entry{"grain_front_curve", "front_dense [m]", false},
     Entry{"solid_height", "y_solid_mean [m]", false},
     Entry{"interface_height", "interface_height [m]", false},
     Entry{"base_pressure", "excess_base_pressure [Pa]", false},

@@ -52,6 +52,7 @@ Json json_result(const Result& result) {
             {"asserted", check.asserted},
             {"frequency", name_of(check.frequency)},
             {"note", result.note}};
+  if (check.parameters.against) json["against"] = *check.parameters.against;
   const bool judged = result.value && result.reference;
   json["deviation"] = judged ? Json(result.judgement.deviation) : Json(nullptr);
   json["distance"] = judged ? Json(result.judgement.distance) : Json(nullptr);

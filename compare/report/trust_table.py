@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""How far to trust the program: the table of README.md and those of docs/results.md, from kept results of `make verify`.
+"""How far to trust the program: the tables of README.md, docs/results.md and docs/gallery.md, from kept results of `make verify`.
 
 compare/report/trust_table.py                          write the tables from what is kept
-compare/report/trust_table.py --verify out/verify      keep these results, then write the tables, and the README's picture if
-                                                       its figure is there: after `make verify`
+compare/report/trust_table.py --verify out/verify      keep these results, then write the tables, the gallery's pictures, and the
+                                                       README's if its figure is there: after `make verify`
 compare/report/trust_table.py --check [--verify DIR]   write nothing; exit code 1 if a table is not what is kept, or with
                                                        --verify if the results in DIR are not what is kept
 """
@@ -20,7 +20,7 @@ sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 from complaint import complain, given_path  # noqa: E402
 from granvof_files import json_of, write_whole  # noqa: E402
-from report import charts, kept_results  # noqa: E402
+from report import charts, gallery, kept_results  # noqa: E402
 
 AGREES = ("agrees", "within band")
 FLOATING = tuple(f"float-full-r{ratio}" for ratio in ("02", "04", "06", "08"))
@@ -208,7 +208,11 @@ def costs(kept):
         for name, cost in sorted(kept["costs"].items())])
 
 
-TABLES = {"README.md": {"trust": trust_table}, "docs/results.md": {"failures": failures, "rows": all_rows, "costs": costs}}
+# File -> marker -> its table, from what is kept and the root of the repository.
+TABLES = {"README.md": {"trust": lambda kept, _: trust_table(kept)},
+          "docs/results.md": {"failures": lambda kept, _: failures(kept), "rows": lambda kept, _: all_rows(kept),
+                              "costs": lambda kept, _: costs(kept)},
+          "docs/gallery.md": {"gallery": gallery.table}}
 
 
 def replaced(text, name, content):
@@ -228,7 +232,7 @@ def render(root, kept):
         texts[file] = (root / file).read_text(encoding="utf-8")
         for name, make in tables.items():
             try:
-                texts[file] = replaced(texts[file], name, make(kept))
+                texts[file] = replaced(texts[file], name, make(kept, root))
             except ValueError as error:
                 raise ValueError(f"{file}: {error}") from error
     return texts
@@ -261,6 +265,8 @@ def main(arguments):
             return 1 if problems else 0
         if verified:
             kept = kept_results.merged(kept, verified)
+            if (options.verify / "curves.json").exists():
+                gallery.write_pictures(options.verify, options.root)
         texts = render(options.root, kept)
     except (OSError, ValueError) as error:
         complain(f"trust_table: {error}")

@@ -307,6 +307,50 @@ TEST_F(Evaluate, AFrontAtATimeIsHeldAgainstItsRecord) {
   EXPECT_FALSE(evaluate_row(row("0.8")).results[0].value);  // after the end of the run
 }
 
+// From the same place at 0.01 m/s less than the beads: rms 0.01 m/s 0.6 s / sqrt(3), held to what moves
+// records.
+TEST_F(Evaluate, AGrainFrontAsACurveIsHeldToTheBand) {
+  write_run("s1", series(0.19));
+  write_record("seed1", 0.2, scene_.reference_hash);
+  const std::string row =
+      "metric = \"grain_front_curve\"\nwindow = [0, 0.6]\n"
+      "reference = { kind = \"DEM\", record = \"s1\" }\ntolerance = { absolute = 0, unit = \"m\" }\n";
+  const Evaluation alone = evaluate_row(row);
+  EXPECT_NEAR(*alone.results[0].value, 0.006 / std::sqrt(3.0), 1e-5);
+  EXPECT_EQ(alone.results[0].judgement.verdict, Verdict::differs);
+  write(paths_.records / "bands.json",
+        R"([{"scene": "canary", "against": "cell-2mm", "column": "front_dense [m]", "rms": 0.004}])");
+  const Evaluation banded = evaluate_row(row);
+  EXPECT_NEAR(banded.results[0].band, 0.004, 1e-9);  // in m: not over h0
+  EXPECT_EQ(banded.results[0].judgement.verdict, Verdict::within_band);
+}
+
+// A front of finite numbers whose squares are none.
+TEST_F(Evaluate, WhatIsNotFiniteIsRefused) {
+  write_run("s1", series(1e200));
+  write_record("seed1", 0.1, scene_.reference_hash);
+  const Evaluation evaluation = evaluate_row(curve_row);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::not_run);
+  EXPECT_EQ(evaluation.results[0].note, "refused: the metric is not finite");
+  EXPECT_EQ(evaluation.unexpected(), 1);
+}
+
+// Who reads the rows is told which two runs one is made of.
+TEST_F(Evaluate, ARowOfTwoRunsNamesBoth) {
+  write_run("s1", series(0.1));
+  write_run("other", series(0.1));
+  const auto table = parse_table(
+      "[[run]]\nid = \"s1\"\n[[run]]\nid = \"other\"\ncase = \"s1\"\n[[check]]\nrun = \"s1\"\n"
+      "metric = \"run_out_distance\"\nagainst = \"other\"\nwindow = [0, 5]\nfrequency = \"verify\"\n"
+      "reference = { kind = \"theory\", value = 0, source = \"x\" }\n"
+      "tolerance = { absolute = 0, unit = \"-\" }\n",
+      "t");
+  const auto json = nlohmann::json::parse(
+      results_json(evaluate(table, Frequency::verify, paths_), Frequency::verify, "2026-01-01T00:00:00Z"));
+  EXPECT_EQ(json.at("results").at(0).at("scene"), "s1");
+  EXPECT_EQ(json.at("results").at(0).at("against"), "other");
+}
+
 TEST_F(Evaluate, ABadCaseIsAnError) {
   paths_.cases = root_ / "nowhere";
   EXPECT_THROW(evaluate_row(volume_row), CaseError);

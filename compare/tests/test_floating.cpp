@@ -95,6 +95,8 @@ TEST(DecayRate, EnvelopeOfADampedOscillation) {
     return 0.1 + 0.01 * std::exp(-0.5 * t) * std::cos(2.0 * std::numbers::pi * t / 0.3);
   });
   EXPECT_NEAR(*envelope_decay_rate(curve, {0.0, 6.0}), 0.5, 0.01);
+  // a window that begins just before a crossing has hardly anything of its first half cycle
+  EXPECT_NEAR(*envelope_decay_rate(curve, {0.07, 6.0}), 0.5, 0.01);
   EXPECT_FALSE(envelope_decay_rate(constant(0.1), {0.0, 6.0}));
 }
 

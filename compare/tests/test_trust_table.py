@@ -1,4 +1,4 @@
-"""The tables of README.md and docs/results.md, from made-up results; and those of the repository from what is kept."""
+"""The tables of README.md, docs/results.md and docs/gallery.md, from made-up results; and those of the repository from what is kept."""
 
 import json
 import tomllib
@@ -30,6 +30,10 @@ def root(tmp_path):
         (tmp_path / file).parent.mkdir(exist_ok=True)
         markers = "\n".join(f"<!-- {name}: made by compare/report/trust_table.py -->\n<!-- end of {name} -->" for name in tables)
         (tmp_path / file).write_text(f"before\n{markers}\nafter\n")
+    for name in ("compare", "cases"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "compare/checks.toml").write_text('[[run]]\nid = "s1"\n[[run]]\nid = "s1-advised"\nbeside = "s1"\n')
+    (tmp_path / "cases/s1.toml").write_text('[scene]\nname = "s1"\ntitle = "A low column"\n')
     return tmp_path
 
 

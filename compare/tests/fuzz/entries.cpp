@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,18 +52,23 @@ void refused_or_read(Read read) {
   }
 }
 
+std::optional<Scene> read_or_refused(std::string_view text, const char* name) {
+  try {
+    return parse_scene(text, name);
+  } catch (const CaseError&) {
+    return std::nullopt;
+  }
+}
+
 // What is read can be written out in full and read again, to the same scene.
 void take_case(std::string_view bytes) {
-  try {
-    const Scene scene = parse_scene(bytes, "fuzz.toml");
-    (void)plausibility(scene);
-    require(estimate_cost(scene).core_seconds >= 0.0, "a run that gives time back");
-    const Scene again = parse_scene(scene.resolved, "resolved.toml");
-    require(again.resolved == scene.resolved && again.hash == scene.hash,
-            "a case that is not what it says in full");
-  } catch (const CaseError&) {
-    return;
-  }
+  const auto scene = read_or_refused(bytes, "fuzz.toml");
+  if (!scene) return;
+  (void)plausibility(*scene);
+  require(estimate_cost(*scene).core_seconds >= 0.0, "a run that gives time back");
+  const auto again = read_or_refused(scene->resolved, "resolved.toml");
+  require(again && again->resolved == scene->resolved && again->hash == scene->hash,
+          "a case that is not what it says in full");
 }
 
 void take_series(std::string_view bytes) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/closures/elastic_energy.hpp"
+#include "solver/run/energy_budget.hpp"
 #include "solver/tests/run/small_runs.hpp"
 
 namespace granvof {
@@ -35,6 +36,19 @@ TEST(EnergyBudget, ClosesWithEveryPartOfTheModel) {
     EXPECT_GE(run.now.energy.viscosity, 0.0);
     EXPECT_GE(run.now.energy.numerical_time, 0.0);
   }
+}
+
+// Theta is the mean square of a fluctuation in one direction of three.
+TEST(EnergyBudget, GranularEnergyIsThatOfThreeDirections) {
+  Simulation run(column_scene({}));
+  run.set(run.now.theta, [](double, double) { return 0.02; });
+  run.fill_ghosts();
+  double grains = 0.0;  // [m3]
+  for (int j = 0; j < run.grid.cells.n[1]; ++j)
+    for (int i = 0; i < run.grid.cells.n[0]; ++i)
+      grains += run.now.f_s[run.cell(i, j)] * run.grid.cell_volume;
+  const EnergyTerms stored = EnergyBudget(run.grid, run.scene, run.boundary).stored(run.now);
+  EXPECT_NEAR(stored.granular, 0.5 * 3.0 * 2500.0 * 0.02 * grains, 1e-9 * stored.granular);
 }
 
 // Shear dilates a dense bed: the contacts gain what friction takes for it by tan(psi), which is a part of all

@@ -1,0 +1,111 @@
+"""The rows of `make verify` against a fault: which runs are made again, in which order, and which rows count."""
+
+import json
+
+import pytest
+
+from mutation import rows
+
+# Rows: granvof writes its case's number, 2 with the fault of this number where the case is s2.
+STANDS_FOR_SOLVER = """[ "$GRANVOF_MUTANTS_REACHED" ] && echo 0000000{reached} >> "$GRANVOF_MUTANTS_REACHED"
+mkdir -p "$4/"; value=1; [ "$2 $GRANVOF_MUTANT" = "cases/s2.toml 00000001" ] && value=2
+[ "$GRANVOF_MUTANT" = 00000003 ] && exit 3
+echo $value > "$4/value"
+"""
+STANDS_FOR_COMPARE = """import json, os, pathlib, sys
+if sys.argv[1] == "plan":
+    print("s1\\ts1\\ns2\\ts2\\tgrid.dx=1\\ndear\\ts1")
+else:
+    runs, out = (pathlib.Path(sys.argv[sys.argv.index(key) + 1]) for key in ("--runs", "--out"))
+    if note := os.environ.get("GRANVOF_MUTANTS_REACHED"):
+        open(note, "a").write("00000002\\n")
+    limit = 0 if os.environ.get("GRANVOF_MUTANT") == "00000002" else 1
+    out.mkdir(parents=True)
+    value = {run.name: int((run / "value").read_text()) for run in sorted(runs.iterdir())}
+    rows = [{"id": f"{name}.row", "scene": name, "reference_kind": "theory", "verdict": "agrees" if value[name] <= limit else "differs"}
+            for name in value]
+    if "like" in value:
+        rows.insert(0, {"id": "like.difference-s2", "scene": "like", "against": "s2", "reference_kind": "theory",
+                        "verdict": "agrees" if value["like"] == value["s2"] else "differs"})
+    rows.insert(0, {"id": "s2.core_seconds", "scene": "s2", "reference_kind": "aim",
+                    "verdict": "agrees" if out.name == "verdicts" else "differs"})
+    (out / "results.json").write_text(json.dumps({"results": rows}))
+    sys.exit(1)
+"""
+
+
+@pytest.fixture
+def stand_ins(tmp_path, shell):
+    tree = tmp_path / "tree"
+    for name in ("build/release/solver", "build/release/compare", "compare/kept/verify"):
+        (tree / name).mkdir(parents=True)
+    shell(tree / "build/release/solver/granvof", STANDS_FOR_SOLVER.replace("{reached}", "1"))
+    compare = tree / "build/release/compare/granvof-compare"
+    compare.write_text("#!/usr/bin/python3\n" + STANDS_FOR_COMPARE)
+    compare.chmod(0o755)
+    costs = {name: {"core_seconds": cost} for name, cost in (("s2", 1.0), ("s1", 0.5), ("dear", 1e3))}
+    (tree / "compare/kept/verify/results.json").write_text(json.dumps({"costs": costs}))
+    made = rows.Rows(tree, tmp_path / "work", tmp_path)
+    said = []
+    assert made.without_fault(said.append) == ""
+    return made, said
+
+
+def test_what_noticed_most_for_its_cost_is_made_first(stand_ins):
+    made, _ = stand_ins
+    made.seconds |= {"s1": 1.0, "s2": 2.0, "check": 0.0}
+    assert [run[0] for run in made.in_order(made.runs)] == ["s1", "s2"]
+    for _ in range(2):
+        assert made.judge(Numbered("00000001"))[1] == "s2.row: agrees -> differs"
+    assert [run[0] for run in made.in_order(made.runs)] == ["s2", "s1"]
+
+
+class Numbered:
+    def __init__(self, number):
+        self.number = number
+
+
+def test_rows_try_the_cheap_runs_in_order_of_their_cost(stand_ins):
+    made, said = stand_ins
+    assert [run[0] for run in made.runs] == ["s1", "s2"]
+    assert [line.split(": ")[1].split(",")[0] for line in said] == ["s1", "s2"]
+    assert made.base == {"s1.row": "agrees", "s2.row": "agrees"}
+
+
+def test_the_row_that_changes_is_named(stand_ins):
+    made, _ = stand_ins
+    assert made.judge(Numbered("00000001")) == ("noticed", "s2.row: agrees -> differs")
+    assert (made.work / "runs/s2/value").read_text() == "1\n"  # what was made without a fault stays
+
+
+def test_a_fault_of_the_comparison_makes_no_run_again(stand_ins):
+    made, _ = stand_ins
+    (made.tree / "build/release/solver/granvof").unlink()
+    assert made.judge(Numbered("00000002")) == ("noticed", "s1.row: agrees -> differs")
+
+
+def test_a_run_that_fails_is_noticed_and_what_nothing_reaches_is_said(stand_ins):
+    made, _ = stand_ins
+    made.reached["s1"].add("00000003")
+    assert made.judge(Numbered("00000003")) == ("noticed", "run s1: exit code 3")
+    assert made.judge(Numbered("00000004")) == ("not reached", "")
+
+
+def test_what_a_run_costs_is_not_asked(stand_ins):
+    made, _ = stand_ins
+    made.reached["s1"].add("00000005")
+    assert made.judge(Numbered("00000005")) == ("survived", "")  # the row of core_seconds is another at each call
+
+
+def test_two_runs_are_held_against_each_other_once_both_have_the_fault(stand_ins):
+    made, _ = stand_ins
+    like = ("like", "s2", [])
+    made.runs.append(like)
+    made.make(like, made.work / "runs", 10.0, {})
+    made.seconds |= {"s1": 3.0, "s2": 2.0, "like": 0.01, "check": 0.0}
+    made.reached |= {"like": {"00000001"}, "s1": set()}
+    made.base |= {"like.difference-s2": "agrees", "like.row": "agrees"}
+    # "like" is made and judged first: between it and the s2 without the fault the difference shows any fault
+    assert made.judge(Numbered("00000001"))[1] == "like.row: agrees -> differs"
+    made.base |= {"like.row": "differs", "s2.row": "differs"}  # as if no value told of it
+    assert made.judge(Numbered("00000001")) == ("survived", "")
