@@ -50,6 +50,12 @@ def test_the_table_has_each_term_of_each_directory(pair, capsys):
     assert [line.split()[-2:] for line in text.splitlines() if "between grains" in line] == [["1125.000", "1000.000"], ["2250.000", "2000.000"]]
 
 
+def test_a_run_is_beside_the_record_that_judges_it_or_that_of_its_case(verify_directory):
+    loaded = results.load(verify_directory)
+    loaded.runs["of-beads"] = {"id": "of-beads", "case": "beads/s1-beads", "record": "s1"}
+    assert [loaded.record_of(run) for run in ("of-beads", "s1", "none")] == ["s1", "s1", "none"]
+
+
 def test_shares_are_of_what_was_released_in_between(pair, capsys):
     assert ledgers.main(["--shares", "--at", "0,0.5,1", *map(str, pair)]) == 0
     lines = capsys.readouterr().out.splitlines()
