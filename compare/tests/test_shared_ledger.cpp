@@ -62,7 +62,7 @@ TEST(SharedLedger, IsUndefinedWithoutALedgerOrOutsideTheRun) {
 }
 
 TEST(SharedLedger, SharesAreMetricsOfATerm) {
-  Run column = beads;
+  compare::Run column = beads;
   column.scene.gravity = 1.0;
   column.scene.bed = Bed{};
   column.scene.bed->nominal_height = 0.25;  // unit of T: 0.5 s
