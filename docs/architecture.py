@@ -29,6 +29,7 @@ ABOUT = {
     "solver/closures/radial_distribution": "g0, a list",
     "solver/closures/kinetic_transport": "what flying grains carry, a list",
     "solver/operators": "one term, one file",
+    "solver/state": "fields, energy terms",
     "solver/output": "run directory, scalars",
     "solver/parallel": "processes of mpirun",
     "solver/run": "time step, monitors, energy",

@@ -89,7 +89,7 @@ def whole(text, start, end):
         stop = ends_expression(bare, at_depth(piece, r"\?|(?<!:):(?!:)"))
         first = matched(bare, start - 1, -1, stop) + 1
         last = matched(bare, end, 1, stop)
-        first += len(re.match(r"\s*(?:(?:return|throw|else|case)\b)?\s*", bare[first:last]).group())
+        first = behind_keywords(bare, first, last)
         while bare[last - 1].isspace():
             last -= 1
         if last > end and bare[last - 1] in "+-*/%&|" and bare[last] == "=":  # the assignment's own operator
@@ -104,6 +104,18 @@ def whole(text, start, end):
     last = matched(bare, max(end - 1, start), 1, lambda i: bare[i] == ";") + 1 if piece.rstrip()[-1] != "}" else end
     first += len(re.match(r"\s*", bare[first:last]).group())
     return first, last, "statement"
+
+
+def behind_keywords(bare, first, last):
+    """Where the expression begins that a statement from `first` on returns, throws or decides by, behind conditions before it."""
+    while True:
+        first += len(re.match(r"\s*", bare[first:last]).group())
+        head = re.match(r"(?:return|throw|else|case|(if(?:\s+constexpr)?|for|while)(?=\s*\())\b", bare[first:last])
+        if head is None:
+            return first
+        first += head.end()
+        if head.group(1):
+            first = matched(bare, bare.index("(", first) + 1, 1, lambda i: False) + 1
 
 
 def begin_of_statement(bare, start):

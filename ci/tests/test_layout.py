@@ -40,7 +40,7 @@ def architecture():
 @pytest.mark.parametrize("part, target, allowed", [
     ("compare/study", "solver/output/seal.hpp", True), ("compare/study", "compare/engine/engine.hpp", True),
     ("compare/study", "solver/run/run_case.hpp", False), ("compare/checks", "solver/grid/grid.hpp", False),
-    ("solver/output", "solver/run/state.hpp", False), ("solver/scene", "solver/output/digest.hpp", False),
+    ("solver/output", "solver/state/state.hpp", False), ("solver/scene", "solver/output/digest.hpp", False),
     ("solver/run", "solver/output/digest.hpp", True), ("solver/run", "compare/input/run.hpp", False),
     ("reference/demvof/fluid", "solver/closures/drag/drag.hpp", True), ("reference/demvof/fluid", "solver/closures/units.hpp", False),
 ])

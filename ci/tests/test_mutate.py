@@ -4,6 +4,7 @@ import importlib.machinery
 import importlib.util
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -168,6 +169,14 @@ def test_all_that_a_loop_does_may_be_dropped(tmp_path):
     (tmp_path / "f.cpp").write_text(switched + "int main() { return f(4); }\n")
     assert subprocess.run(["g++", "-std=c++20", f"-I{ROOT}", "-o", tmp_path / "f", tmp_path / "f.cpp"]).returncode == 0
     assert [subprocess.run([tmp_path / "f"], env={"GRANVOF_MUTANT": number}).returncode for number in ("", "1")] == [5, 0]
+
+
+def test_what_a_condition_returns_is_switched_behind_it():
+    text = "double f(double a) {\n  if (a > g(0.0)) return 2.0 * a;\n  else if constexpr (b) return 5.0;\n  throw a;\n}\n"
+    for was, now in [("2.0 * a", "3.0 * a"), ("5.0", "6.0")]:
+        mutant = fault(was, now)
+        changed = cpp.switched(text, [(*listed.place(mutant, text), mutant.number)])
+        assert re.search(r"\) return \(::granvof::mutation::on<\w+>\(\) \? \(" + re.escape(now), changed)
 
 
 def test_a_text_is_switched_as_a_whole():

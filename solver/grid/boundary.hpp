@@ -31,10 +31,6 @@ class Boundary {
   // Refreshes only the ghosts that no side of the tank gives.
   void exchange(Field& f) const { exchange(f.data()); }
   void exchange(double* values) const { granvof::exchange(grid_.cells, values); }
-  // The same where other processes have them: what a loop of this process alone would find at hand.
-  void share(Field& f) const {
-    if (grid_.cells.is_cut()) exchange(f);
-  }
 
   const SideRule& side(int direction, bool upper) const { return grid_.side(direction, upper); }
 

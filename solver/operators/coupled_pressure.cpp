@@ -34,11 +34,11 @@ constexpr double least_slope = 1e-3;
 // 2e-3 in the air.
 constexpr double nothing_left = 1e-5;
 
-// P_s(f_s) of a cell at a trial f_s.
-auto law_of_cells(const SolidPressureState& state, const closures::SolidLaw& law_of_scene) {
-  const double *theta = state.theta.data(), *e = state.restitution.data(), *rest = state.resting.data(),
-               *packing = state.packing.data();
-  const double* viscous = state.viscous_stress ? state.viscous_stress->data() : nullptr;
+// P_s(f_s) of a cell at a trial f_s, Theta, e and what else fixes the law those of the old level.
+auto law_of_cells(const State& now, const Rheology& rheology, const closures::SolidLaw& law_of_scene) {
+  const double *theta = now.theta.data(), *e = rheology.restitution.data(),
+               *rest = rheology.part_cells.resting.data(), *packing = now.packing.data();
+  const double* viscous = rheology.viscous_stress.empty() ? nullptr : rheology.viscous_stress.data();
   return [=, law = law_of_scene](std::ptrdiff_t c, double f) {
     return closures::solid_pressure(f, {theta[c], e[c], rest[c], packing[c], viscous ? viscous[c] : 0.0},
                                     law);
@@ -146,8 +146,7 @@ void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_direction
       k11[i] = k21[i] + inv_h2 * (1.0 - phi_c[i]) * c_c[i];
       k12[i] = k22[i] + inv_h2 * (1.0 - phi_c[i]) * c_s[i];
     });
-    boundary_.exchange(k22_[d]);  // move_points() sums it over all faces of a cell
-    for (FaceField* k : {&k11_, &k12_, &k21_}) boundary_.share((*k)[d]);
+    for (FaceField* k : {&k11_, &k12_, &k21_, &k22_}) boundary_.exchange((*k)[d]);
   }
 }
 
@@ -257,12 +256,12 @@ void CoupledPressure::extrapolate_points(double dt, const Field& f_s, const Face
 }
 
 // Takes the law P_s(f_s) and its slope at the linearisation points.
-void CoupledPressure::linearise(const SolidPressureState& law) {
+void CoupledPressure::linearise(const State& now, const Rheology& rheology) {
   const double* pf = point_f_.data();
   double *pp = point_p_.data(), *slope = slope_.data();
   const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
   const double least = least_slope * load_;
-  const auto pressure = law_of_cells(law, law_);
+  const auto pressure = law_of_cells(now, rheology, law_);
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     const auto p = pressure(c, pf[c]);
     pp[c] = p.value;
@@ -276,11 +275,11 @@ void CoupledPressure::linearise(const SolidPressureState& law) {
 // would take if its neighbours stayed: f + B P_s(f) = f_new + B P_lin, B = what a unit of P_s drives out of
 // the cell in dt. That line is flat for a loaded bed (the weight fixes P_s) and steep for grains being driven
 // together (the motion fixes f_s); tangents alone creep along the law, which grows like (f_s - f_s,min)^3.5.
-double CoupledPressure::move_points(double dt, const SolidPressureState& law, const Field& p_s) {
-  const double *dp = dp_s_.data(), *p_old = p_s.data(), *f_new = f_new_.data();
+double CoupledPressure::move_points(double dt, const State& now, const Rheology& rheology) {
+  const double *dp = dp_s_.data(), *p_old = now.p_s.data(), *f_new = f_new_.data();
   double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
   const double tolerance = scene_.numerics.volume_tolerance;
-  const auto pressure = law_of_cells(law, law_);
+  const auto pressure = law_of_cells(now, rheology, law_);
   std::array<const double*, 3> k22{};
   for (int d = 0; d < grid_.dim; ++d) k22[d] = k22_[d].data();
   const auto stride = grid_.cells.stride;
@@ -321,29 +320,28 @@ linear::CoupledSystem CoupledPressure::system() const {
   return system;
 }
 
-PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPressureState& law,
+PressureReport CoupledPressure::solve(double dt, const State& now, const Rheology& rheology,
                                       const FaceInertia& inertia, const FaceField& beta,
-                                      const Aperture& aperture, const FaceField& u_s_old, FaceField& u_s,
-                                      FaceField& u_c, Field& p_c, Field& p_s, FaceField& flux_s,
+                                      const Aperture& aperture, State& next, FaceField& flux_s,
                                       FaceField& flux_c) {
   const Numerics& numerics = scene_.numerics;
   const bool implicit = numerics.contact_pressure == ContactPressure::implicit;
   PressureReport report;
   if (implicit) {
-    extrapolate_points(dt, f_s, u_s_old);
+    extrapolate_points(dt, now.f_s, now.u_s);
   } else {
-    point_f_ = f_s;  // P_s is that of the old solid fraction
+    point_f_ = now.f_s;  // P_s is that of the old solid fraction
   }
-  us_ = u_s;
-  uc_ = u_c;
+  us_ = next.u_s;
+  uc_ = next.u_c;
   dp_c_.fill(0.0);
   dp_s_.fill(0.0);
   set_response(dt, inertia, beta, aperture);
-  linearise(law);
+  linearise(now, rheology);
   bool turned = false;  // all is solved but for faces that carry the fraction of the wrong side
   for (int iteration = 0; iteration < numerics.newton_max; ++iteration) {
-    set_fluxes(dt, f_s, iteration < upwinding_settles || turned);
-    set_balances(dt, f_s, p_s, u_s, u_c);
+    set_fluxes(dt, now.f_s, iteration < upwinding_settles || turned);
+    set_balances(dt, now.f_s, now.p_s, next.u_s, next.u_c);
     const auto solve_to = [&](double volume) {
       return solver_.solve(system(), dp_c_.data(), dp_s_.data(),
                            {volume / dt, numerics.linear_tolerance, most_linear_iterations});
@@ -352,20 +350,20 @@ PressureReport CoupledPressure::solve(double dt, const Field& f_s, const SolidPr
     if (iteration == 0 && r.iterations == 0) r = solve_to(nothing_left * numerics.volume_tolerance);
     report.newton = iteration + 1;
     report.linear += r.iterations;
-    correct(dt, f_s, u_s, u_c, flux_s, flux_c);
-    report.mismatch = implicit ? move_points(dt, law, p_s) : 0.0;
+    correct(dt, now.f_s, next.u_s, next.u_c, flux_s, flux_c);
+    report.mismatch = implicit ? move_points(dt, now, rheology) : 0.0;
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
     const bool solved =
         report.divergence <= numerics.volume_tolerance && report.mismatch <= numerics.volume_tolerance;
-    turned = solved && !(turned_flux(dt, f_s) <= turned_flux_that_matters);
+    turned = solved && !(turned_flux(dt, now.f_s) <= turned_flux_that_matters);
     report.converged = solved && !turned;
     if (report.converged) break;
   }
-  u_s = us_;
-  u_c = uc_;
+  next.u_s = us_;
+  next.u_c = uc_;
   const double *dpc = dp_c_.data(), *dps = dp_s_.data();
-  double *pc = p_c.data(), *ps = p_s.data();
+  double *pc = next.p_c.data(), *ps = next.p_s.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     pc[c] += dpc[c];
     ps[c] = std::max(ps[c] + dps[c], 0.0);

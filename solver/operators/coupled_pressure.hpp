@@ -15,19 +15,10 @@
 #include "solver/linear/coupled_solver.hpp"
 #include "solver/operators/aperture.hpp"
 #include "solver/operators/mixture.hpp"
+#include "solver/operators/rheology.hpp"
 #include "solver/operators/solid_fraction_flux.hpp"
 
 namespace granvof {
-
-// Cell values that fix P_s(f_s) during one step.
-struct SolidPressureState {
-  const Field& theta;        // granular temperature of the old level [m2/s2]
-  const Field& restitution;  // e of (18) [-]
-  const Field& resting;      // P_s^W of grains in partly filled cells [Pa]
-  const Field& packing;      // where the grains touch [-]
-  // mu_c gamma of viscous contacts [Pa]; none where the scene has none
-  const Field* viscous_stress = nullptr;
-};
 
 struct PressureReport {
   bool converged = false;
@@ -41,12 +32,12 @@ class CoupledPressure {
  public:
   CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
-  // In: predicted u_s, u_c (old pressure gradients included), old p_c, p_s, f_s and u_s_old with ghosts
-  // filled, inertia and beta on faces. Out: new u_s, u_c on their faces, p_c, p_s, and the volume fluxes per
-  // area f_s u_s and f_c u_c [m/s] through every face that close both balances.
-  PressureReport solve(double dt, const Field& f_s, const SolidPressureState& law, const FaceInertia& inertia,
-                       const FaceField& beta, const Aperture& aperture, const FaceField& u_s_old,
-                       FaceField& u_s, FaceField& u_c, Field& p_c, Field& p_s, FaceField& flux_s,
+  // In: the old state with ghosts filled, the rheology, inertia and beta [kg/m3 s] of its level; in `next`
+  // the predicted u_s, u_c (old pressure gradients included) and the old p_c, p_s. Out: new u_s, u_c on their
+  // faces, p_c, p_s, and the volume fluxes per area f_s u_s and f_c u_c [m/s] through every face that close
+  // both balances.
+  PressureReport solve(double dt, const State& now, const Rheology& rheology, const FaceInertia& inertia,
+                       const FaceField& beta, const Aperture& aperture, State& next, FaceField& flux_s,
                        FaceField& flux_c);
 
  private:
@@ -57,9 +48,9 @@ class CoupledPressure {
   void correct(double dt, const Field& f_s, const FaceField& us_predicted, const FaceField& uc_predicted,
                FaceField& flux_s, FaceField& flux_c);
   void extrapolate_points(double dt, const Field& f_s, const FaceField& u_s_old);
-  void linearise(const SolidPressureState& law);
+  void linearise(const State& now, const Rheology& rheology);
   double turned_flux(double dt, const Field& f_s);
-  double move_points(double dt, const SolidPressureState& law, const Field& p_s);
+  double move_points(double dt, const State& now, const Rheology& rheology);
   linear::CoupledSystem system() const;
 
   const Grid& grid_;

@@ -63,7 +63,7 @@ void Friction::set_own_diffusion(const FaceField& mass) {
           for_each(layout, wall, [=](std::ptrdiff_t c) { diagonal[c] += m[c] * inv_h2 * viscosity(c + at); });
         }
       }
-      boundary_.share(coefficient_[d][e]);
+      boundary_.exchange(coefficient_[d][e]);
     }
   }
 }

@@ -76,12 +76,11 @@ GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, c
       spared_(grid) {}
 
 // (f_s Theta) carried by the solid flux, upwind: a convex combination of old values, so Theta stays positive.
-double GranularTemperature::convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                                    const FaceField& flux_s, Field& theta_new) const {
-  const double *f = f_s.data(), *f_new = f_s_new.data(), *t = theta.data();
-  double* out = theta_new.data();
+double GranularTemperature::convect(double dt, const State& now, const FaceField& flux_s, State& next) const {
+  const double *f = now.f_s.data(), *f_new = next.f_s.data(), *t = now.theta.data();
+  double* out = next.theta.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
-  subtract_upwind_divergence(grid_, dt, flux_s, theta, theta_new);
+  subtract_upwind_divergence(grid_, dt, flux_s, now.theta, next.theta);
   const double held = sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
     const bool grains = f_new[c] >= least_solid_fraction;
     const double of_cell = out[c];
@@ -92,11 +91,11 @@ double GranularTemperature::convect(double dt, const Field& theta, const Field& 
 }
 
 // Implicit conduction, kappa of the old level: 3/2 f_s rho_s dTheta/dt = div(f_s kappa grad Theta).
-void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheology& rheology,
-                                  Field& theta_new) {
+void GranularTemperature::conduct(double dt, const Rheology& rheology, State& next) {
   const double rho_s = scene_.solid.density;
-  const double *f = f_s_new.data(), *mu = rheology.kinetic_viscosity.data(), *e = rheology.restitution.data();
-  double *kappa = kappa_.data(), *mass = mass_.data(), *rhs = rhs_.data(), *t = theta_new.data();
+  const double *f = next.f_s.data(), *mu = rheology.kinetic_viscosity.data(),
+               *e = rheology.restitution.data();
+  double *kappa = kappa_.data(), *mass = mass_.data(), *rhs = rhs_.data(), *t = next.theta.data();
   for_each(grid_.cells, [=, laws = laws_](std::ptrdiff_t c) {
     const bool grains = f[c] >= least_solid_fraction;
     kappa[c] = grains ? laws.conductivity_to_viscosity(f[c], e[c]) * mu[c] : 0.0;
@@ -114,7 +113,7 @@ void GranularTemperature::conduct(double dt, const Field& f_s_new, const Rheolog
       // no conduction into cells without grains
       k[c] = mass[c] > 0.0 && mass[c - s] > 0.0 ? 0.5 * (kappa[c] + kappa[c - s]) * inv_h2 : 0.0;
     });
-    boundary_.share(conductivity_[d]);
+    boundary_.exchange(conductivity_[d]);
     faces.lower[d] = k;
   }
   const double scale =
@@ -171,13 +170,12 @@ class LocalBalances {
 
 // The production A S^2 w is proportional to w: divided by w the balance, 3 f rho dw/dt = A S^2 - collisions
 // w^2 - decay w, is a quadratic with one positive root, above zero for grains at rest too.
-void GranularTemperature::predict(double dt, const Field& theta, const Field& f_s, const Field& beta,
-                                  const Field& restitution, const StrainRate& strain,
-                                  Field& predicted) const {
+void GranularTemperature::predict(double dt, const State& now, const Field& beta, const Field& restitution,
+                                  const StrainRate& strain, Field& predicted) const {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
-  const LocalBalances at(scene_, laws_, wall_loss_, f_s, beta, restitution, strain);
-  const double *f = f_s.data(), *t = theta.data(), *sq = strain.squared.data(),
+  const LocalBalances at(scene_, laws_, wall_loss_, now.f_s, beta, restitution, strain);
+  const double *f = now.f_s.data(), *t = now.theta.data(), *sq = strain.squared.data(),
                *div = strain.divergence.data();
   double* out = predicted.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
@@ -199,15 +197,15 @@ void GranularTemperature::predict(double dt, const Field& theta, const Field& f_
 // that of the old Theta, which is what the momentum felt; where the grains expand by more than they hold, the
 // rest of it came from nowhere (`spared` of GranularLosses). The algebraic form drops the time
 // term, and takes the work of the new Theta where it is a loss.
-GranularLosses GranularTemperature::balance(double dt, const Field& theta, const Field& f_s,
-                                            const Field& f_s_new, const Field& beta, const Field& restitution,
-                                            const StrainRate& strain, const Field& production,
-                                            Field& theta_new) {
+GranularLosses GranularTemperature::balance(double dt, const State& now, const Field& beta,
+                                            const Field& restitution, const StrainRate& strain,
+                                            const Field& production, State& next) {
   const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
-  const LocalBalances at(scene_, laws_, wall_loss_, f_s_new, beta, restitution, strain);
-  const double *f0 = f_s.data(), *f = f_s_new.data(), *produced = production.data(), *old = theta.data();
-  double *t = theta_new.data(), *collided = collisions_.data(), *dragged = drag_.data(),
+  const LocalBalances at(scene_, laws_, wall_loss_, next.f_s, beta, restitution, strain);
+  const double *f0 = now.f_s.data(), *f = next.f_s.data(), *produced = production.data(),
+               *old = now.theta.data();
+  double *t = next.theta.data(), *collided = collisions_.data(), *dragged = drag_.data(),
          *pressed = pressure_.data(), *excess = excess_.data(), *spared = spared_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     collided[c] = dragged[c] = pressed[c] = spared[c] = 0.0;
@@ -242,23 +240,21 @@ GranularLosses GranularTemperature::balance(double dt, const Field& theta, const
   return {total(collisions_), total(drag_), total(pressure_), total(excess_), 0.0, total(spared_)};
 }
 
-GranularLosses GranularTemperature::advance(double dt, const Field& theta, const Field& f_s,
-                                            const Field& f_s_new, const FaceField& flux_s, const Field& beta,
-                                            const Rheology& rheology, const StrainRate& strain,
-                                            const Field& production, Field& theta_new) {
+GranularLosses GranularTemperature::advance(double dt, const State& now, const FaceField& flux_s,
+                                            const Field& beta, const Rheology& rheology,
+                                            const StrainRate& strain, const Field& production, State& next) {
   double run_out = 0.0;
   switch (scene_.model.granular_temperature) {
     case TemperatureModel::off:
       return {};  // Theta stays zero
     case TemperatureModel::transported:
-      run_out = convect(dt, theta, f_s, f_s_new, flux_s, theta_new);
-      conduct(dt, f_s_new, rheology, theta_new);
+      run_out = convect(dt, now, flux_s, next);
+      conduct(dt, rheology, next);
       break;
     case TemperatureModel::algebraic:
       break;
   }
-  GranularLosses losses =
-      balance(dt, theta, f_s, f_s_new, beta, rheology.restitution, strain, production, theta_new);
+  GranularLosses losses = balance(dt, now, beta, rheology.restitution, strain, production, next);
   losses.run_out = run_out;
   return losses;
 }

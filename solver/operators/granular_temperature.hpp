@@ -33,25 +33,23 @@ class GranularTemperature {
 
   // Theta that the kinetic viscosity of the step is taken at [m2/s2]: the old one, but at least a small share
   // of what the strain would make in each cell by itself within dt, nothing carried; in the algebraic form
-  // all of that. In: Theta, f_s, e of the old level, beta of cells. Interior cells only.
-  void predict(double dt, const Field& theta, const Field& f_s, const Field& beta, const Field& restitution,
+  // all of that. In: the state, e and strain of the old level, beta of cells. Interior cells only.
+  void predict(double dt, const State& now, const Field& beta, const Field& restitution,
                const StrainRate& strain, Field& predicted) const;
 
-  // Theta of the new level [m2/s2], >= 0 without clipping. In: Theta, f_s of the old level (one ghost layer
+  // Theta of the new level [m2/s2], >= 0 without clipping, into `next`. In: the old state (one ghost layer
   // filled), f_s and strain of the new level, flux_s [m/s], beta of cells, e of the step, and what the
   // kinetic stress dissipated, production >= 0 [W/m3].
-  GranularLosses advance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                         const FaceField& flux_s, const Field& beta, const Rheology& rheology,
-                         const StrainRate& strain, const Field& production, Field& theta_new);
+  GranularLosses advance(double dt, const State& now, const FaceField& flux_s, const Field& beta,
+                         const Rheology& rheology, const StrainRate& strain, const Field& production,
+                         State& next);
 
  private:
   // Returns what was held where no grains are left [J].
-  double convect(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                 const FaceField& flux_s, Field& theta_new) const;
-  void conduct(double dt, const Field& f_s_new, const Rheology& rheology, Field& theta_new);
-  GranularLosses balance(double dt, const Field& theta, const Field& f_s, const Field& f_s_new,
-                         const Field& beta, const Field& restitution, const StrainRate& strain,
-                         const Field& production, Field& theta_new);
+  double convect(double dt, const State& now, const FaceField& flux_s, State& next) const;
+  void conduct(double dt, const Rheology& rheology, State& next);
+  GranularLosses balance(double dt, const State& now, const Field& beta, const Field& restitution,
+                         const StrainRate& strain, const Field& production, State& next);
 
   const Grid& grid_;
   const Scene& scene_;

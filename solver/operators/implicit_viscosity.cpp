@@ -71,7 +71,7 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
       couple([=](std::ptrdiff_t c) { return edge[c]; }, [=](std::ptrdiff_t c) { return edge[c + t]; });
       set_sides(d, e, edge);
     }
-    boundary_.share(coefficient_[e]);
+    boundary_.exchange(coefficient_[e]);
   }
 }
 

@@ -15,32 +15,31 @@ constexpr double least_moving = 0.05;
 
 }  // namespace
 
-void InterphaseDrag::update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c,
-                            const Field& f_s, const Field& alpha, const FaceInertia& inertia,
+void InterphaseDrag::update(const Boundary& boundary, const State& now, const FaceInertia& inertia,
                             const PartCells& part_cells) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
-    const double* us = u_s[d].data();
-    const double* uc = u_c[d].data();
+    const double* us = now.u_s[d].data();
+    const double* uc = now.u_c[d].data();
     double* w = slip_[d].data();
     for_each(grid_.cells, grid_.cells_and_ghosts(1), [=](std::ptrdiff_t c) { w[c] = uc[c] - us[c]; });
   }
-  scene_.model.drag_law.with([&](auto law) { fill(law, boundary, f_s, alpha, inertia, part_cells); });
+  scene_.model.drag_law.with([&](auto law) { fill(law, boundary, now, inertia, part_cells); });
 }
 
 template <typename Law>
-void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
-                          const FaceInertia& inertia, const PartCells& part_cells) {
+void InterphaseDrag::fill(Law law, const Boundary& boundary, const State& now, const FaceInertia& inertia,
+                          const PartCells& part_cells) {
   const Fluid gas = scene_.gas, liquid = scene_.liquid;
   const double d_s = scene_.solid.diameter;
-  const double* a = alpha.data();
+  const double* a = now.alpha.data();
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double* own = slip_[d].data();
     const double* f = inertia.f_s[d].data();
     const bool hindered_by_receiver = scene_.numerics.solid_flux != SolidFlux::upwind;
     if (hindered_by_receiver)
-      fraction_.face_values(grid_, f_s, slip_[d], d, 0.0, grid_.inner_faces(d), hindering_);
+      fraction_.face_values(grid_, now.f_s, slip_[d], d, 0.0, grid_.inner_faces(d), hindering_);
     const double *receiver = hindering_.data(), *rest = part_cells.at_rest.data(),
                  *held = part_cells.held.data();
     double* beta = beta_[d].data();
@@ -78,7 +77,7 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const Field& f_s, c
                                           grid_.dim == 3 ? slip_[2].data() : nullptr};
   const auto stride = grid_.cells.stride;
   const int dim = grid_.dim;
-  const double* f = f_s.data();
+  const double* f = now.f_s.data();
   double* beta = of_cells_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     beta[c] = 0.0;

@@ -14,6 +14,7 @@
 #include "solver/operators/bed_surface.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/solid_fraction_flux.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 
@@ -31,8 +32,8 @@ class InterphaseDrag {
   // One ghost layer of both velocities and of alpha and two of f_s must be filled; f_s on faces comes with
   // the inertia, part_cells from the rheology. A face
   // at a periodic end has its copy at the other.
-  void update(const Boundary& boundary, const FaceField& u_s, const FaceField& u_c, const Field& f_s,
-              const Field& alpha, const FaceInertia& inertia, const PartCells& part_cells);
+  void update(const Boundary& boundary, const State& now, const FaceInertia& inertia,
+              const PartCells& part_cells);
 
   // At cell centres: what agitated grains are dragged by. (A mean over faces depends on how many of them lie
   // across the gradient of f_s: four cells thick another one than in the plane.)
@@ -41,8 +42,8 @@ class InterphaseDrag {
 
  private:
   template <typename Law>
-  void fill(Law law, const Boundary& boundary, const Field& f_s, const Field& alpha,
-            const FaceInertia& inertia, const PartCells& part_cells);
+  void fill(Law law, const Boundary& boundary, const State& now, const FaceInertia& inertia,
+            const PartCells& part_cells);
 
   const Grid& grid_;
   const Scene& scene_;

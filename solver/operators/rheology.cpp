@@ -15,36 +15,35 @@ namespace granvof {
 // Of grains that the fluid between them stops: the rate of their shear is that of the old level, as for
 // friction.
 void Rheology::update_viscous_contacts(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                       const Field& f_s, const Field& alpha, const StrainRate& strain) {
+                                       const State& now, const StrainRate& strain) {
   if (!scene.model.has_viscous_contacts()) return;
   if (pore_viscosity.empty()) pore_viscosity = Field(grid);
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
-  const double* a = alpha.data();
+  const double* a = now.alpha.data();
   double* mu = pore_viscosity.data();
   for_each(grid.cells, [=](std::ptrdiff_t c) { mu[c] = mixture(a[c], mu_l, mu_g); });
   boundary.fill_scalar(pore_viscosity);
   if (!scene.model.viscous_contact_pressure) return;
   if (viscous_stress.empty()) viscous_stress = Field(grid);
-  const double *f = f_s.data(), *sq = strain.squared.data(), *div = strain.divergence.data();
+  const double *f = now.f_s.data(), *sq = strain.squared.data(), *div = strain.divergence.data();
   double* stress = viscous_stress.data();
   for_each(grid.cells, [=](std::ptrdiff_t c) {
     stress[c] = f[c] < least_solid_fraction ? 0.0 : mu[c] * deviatoric_shear_rate(sq[c], div[c]);
   });
 }
 
-void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
-                      const Field& theta, const Field& alpha, const Field& p_s, const Field& packing,
+void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boundary, const State& now,
                       const StrainRate& strain) {
   const bool in_part = scene.numerics.bed_surface == BedSurface::part_cells;
-  if (in_part) part_cells.update(grid, scene, f_s, alpha, p_s);
+  if (in_part) part_cells.update(grid, scene, now.f_s, now.alpha, now.p_s);
   const Solid solid = scene.solid;
   const Contact contact = scene.contact;
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
   const closures::SolidLaw law(scene);
-  update_viscous_contacts(grid, scene, boundary, f_s, alpha, strain);
+  update_viscous_contacts(grid, scene, boundary, now, strain);
   const double* viscous = viscous_stress.empty() ? nullptr : viscous_stress.data();
-  const double *f = f_s.data(), *t = theta.data(), *a = alpha.data(), *weight = part_cells.resting.data(),
-               *touching = packing.data();
+  const double *f = now.f_s.data(), *t = now.theta.data(), *a = now.alpha.data(),
+               *weight = part_cells.resting.data(), *touching = now.packing.data();
   double *e = restitution.data(), *p = enduring_pressure.data(), *tan_psi = dilatancy_tangent.data();
   const bool sheared = scene.model.shear_dilatancy && scene.model.dilatancy_friction;
   const auto borne = [=](std::ptrdiff_t c, double resting) {
@@ -65,7 +64,7 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   boundary.fill_scalar(restitution);
   boundary.fill_scalar(enduring_pressure);
   if (scene.model.thin_layer_arrest) {
-    arrest_thin_layers(grid, scene, f_s, arrest_friction);
+    arrest_thin_layers(grid, scene, now.f_s, arrest_friction);
     boundary.fill_scalar(arrest_friction);
   }
   if (sheared) boundary.fill_scalar(dilatancy_tangent);
@@ -91,7 +90,7 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
       side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
     });
     boundary.exchange(free_side);
-    extend_to_walls(grid, scene, f_s, alpha, enduring_pressure);
+    extend_to_walls(grid, scene, now.f_s, now.alpha, enduring_pressure);
   }
 }
 

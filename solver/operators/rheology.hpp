@@ -4,6 +4,7 @@
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/bed_surface.hpp"
 #include "solver/operators/strain.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 
@@ -34,10 +35,9 @@ struct Rheology {
         part_cells(grid),
         free_side(grid) {}
 
-  // All but the kinetic viscosity, with ghosts filled but for part_cells, from f_s, Theta, alpha, P_s,
-  // packing and strain of the same level.
-  void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const Field& f_s,
-              const Field& theta, const Field& alpha, const Field& p_s, const Field& packing,
+  // All but the kinetic viscosity, with ghosts filled but for part_cells, from a state and a strain of the
+  // same level.
+  void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const State& now,
               const StrainRate& strain);
 
   // The kinetic viscosity and the pressure on bumps at `theta`, with ghosts filled; e must be up to date.
@@ -46,7 +46,7 @@ struct Rheology {
 
  private:
   void update_viscous_contacts(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                               const Field& f_s, const Field& alpha, const StrainRate& strain);
+                               const State& now, const StrainRate& strain);
 };
 
 }  // namespace granvof

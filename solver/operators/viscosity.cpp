@@ -10,17 +10,23 @@
 
 namespace granvof {
 
-double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, const Field& f_s,
-                              const Field& alpha) {
-  strain_.update(grid_, u_c);
+namespace {
+
+constexpr double explicit_viscous_number =
+    0.4;  // nu dt sum(1/h^2); explicit diffusion is unstable from 0.5 on
+
+}  // namespace
+
+void FluidViscosity::update(const Boundary& boundary, const State& now) {
+  strain_.update(grid_, now.u_c);
   const double delta =
       grid_.dim == 2 ? std::sqrt(grid_.h[0] * grid_.h[1]) : std::cbrt(grid_.h[0] * grid_.h[1] * grid_.h[2]);
   const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
   const double rho_l = liquid.density, rho_g = gas.density, mu_l = liquid.viscosity, mu_g = gas.viscosity;
   const bool les = scene_.model.les, suspension = scene_.model.suspension_viscosity;
   const double f_max = scene_.contact.solid_fraction_max;
-  const double* f = f_s.data();
-  const double* a = alpha.data();
+  const double* f = now.f_s.data();
+  const double* a = now.alpha.data();
   const double* sq = strain_.squared.data();
   double* mu = viscosity_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
@@ -31,14 +37,20 @@ double FluidViscosity::update(const Boundary& boundary, const FaceField& u_c, co
     mu[c] = (1.0 - f[c]) * (molecular * crowded + eddy);
   });
   boundary.fill_scalar(viscosity_);
-  const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
+  largest_kinematic_ = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
     return mu[c] / ((1.0 - f[c]) * mixture(a[c], rho_l, rho_g));
   });
   if (!grid_.obstacles.none()) {
     grid_.obstacles.extend(mu);
     boundary.fill_scalar(viscosity_);
   }
-  return largest;
+}
+
+bool FluidViscosity::bears(double dt) const {
+  double inverse_squares = 0.0;
+  for (int d = 0; d < grid_.dim; ++d)
+    if (grid_.cells.n[d] > 1) inverse_squares += 1.0 / (grid_.h[d] * grid_.h[d]);
+  return largest_kinematic_ * dt * inverse_squares <= explicit_viscous_number;
 }
 
 void FluidViscosity::add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d,

@@ -4,6 +4,7 @@
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/strain.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 
@@ -13,9 +14,13 @@ class FluidViscosity {
       : grid_(grid), scene_(scene), strain_(grid), viscosity_(grid) {}
 
   // f_c (mu_c + mu_t) of every cell from the old level, mu_c that of a suspension with suspension_viscosity;
-  // u, f_s, alpha with one ghost layer filled. Returns the largest kinematic viscosity [m2/s], which says
-  // whether a step bears the explicit term.
-  double update(const Boundary& boundary, const FaceField& u_c, const Field& f_s, const Field& alpha);
+  // u_c, f_s, alpha with one ghost layer filled.
+  void update(const Boundary& boundary, const State& now);
+
+  // The largest of the cells, LES included [m2/s].
+  double largest_kinematic() const { return largest_kinematic_; }
+  // Whether the explicit term is stable over a step of dt.
+  bool bears(double dt) const;
 
   // Adds (1 / (f_c rho_c)) div(f_c (mu_c + mu_t)(grad u + grad u^T)) [m/s2] to component d.
   void add_acceleration(const FaceField& u_c, const FaceInertia& inertia, int d, const Range& faces,
@@ -47,6 +52,7 @@ class FluidViscosity {
   const Scene& scene_;
   StrainRate strain_;
   Field viscosity_;  // f_c (mu_c + mu_t) [Pa s]
+  double largest_kinematic_ = 0.0;
 };
 
 }  // namespace granvof

@@ -85,7 +85,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.numerical_stress = dt * (stress.solved_for - stress.on_grains);
   t.numerical_elastic = -work_of_contacts(dt, now, next, trace) - (trace.carried - now.energy.elastic);
   t.numerical_granular = granular.bounds + granular.run_out - granular.spared;
-  t.upwind_momentum = dt * trace.upwind;
+  t.upwind_momentum = dt * trace.predictor.upwind_power();
   t.theta_bounds = granular.bounds;
   t.residual = t.left_by(now.energy);
   return t;

@@ -13,24 +13,23 @@
 #include "solver/operators/friction.hpp"
 #include "solver/operators/granular_temperature.hpp"
 #include "solver/operators/liquid_passed.hpp"
+#include "solver/operators/momentum_predictor.hpp"
 #include "solver/operators/viscosity.hpp"
-#include "solver/run/energy_terms.hpp"
-#include "solver/run/state.hpp"
+#include "solver/state/energy_terms.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 
 // What a step leaves behind for its account.
 struct StepTrace {
-  const FaceInertia& inertia;                  // of the old level
-  const FaceField& beta;                       // [kg/m3 s]
-  const FaceField &predicted_s, &predicted_c;  // explicit predictors [m/s]
-  const FaceField& convective_c;               // convective part of the fluid's [m/s2]
-  const FaceField &flux_s, &flux_c;            // [m/s]
-  const FaceField& flux_c_solved;              // before it closed continuity: what the velocities carry [m/s]
-  const Rheology& rheology;                    // of the old level
-  const StrainRate& strain;                    // of the new u_s
-  double upwind;                               // power that the upwinding of momentum takes [W]
-  double viscous_power;  // of the viscous force at the velocity that `viscous` is of [W]
+  const FaceInertia& inertia;  // of the old level
+  const FaceField& beta;       // [kg/m3 s]
+  const MomentumPredictor& predictor;
+  const FaceField &flux_s, &flux_c;  // [m/s]
+  const FaceField& flux_c_solved;    // before it closed continuity: what the velocities carry [m/s]
+  const Rheology& rheology;          // of the old level
+  const StrainRate& strain;          // of the new u_s
+  double viscous_power;              // of the viscous force at the velocity that `viscous` is of [W]
   const FluidViscosity::Power& viscous;
   const Friction::Power& stress;
   const GranularLosses& granular;

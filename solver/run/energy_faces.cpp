@@ -52,7 +52,7 @@ class Faces {
 void Faces::add_solid(int d) {
   const std::ptrdiff_t s = grid_.stride(d);
   const double *m = trace_.inertia.solid[d].data(), *f = trace_.inertia.f_s[d].data(),
-               *beta = trace_.beta[d].data(), *star = trace_.predicted_s[d].data(),
+               *beta = trace_.beta[d].data(), *star = trace_.predictor.solid()[d].data(),
                *q = trace_.flux_s[d].data();
   const double *f1 = next_.f_s.data(), *p = next_.p_c.data();
   const double *u0 = now_.u_s[d].data(), *u1 = next_.u_s[d].data(), *v1 = next_.u_c[d].data();
@@ -89,7 +89,8 @@ void Faces::add_solid(int d) {
 void Faces::add_fluid(int d, const Range& faces, double weight) {
   const std::ptrdiff_t s = grid_.stride(d);
   const double *m = trace_.inertia.fluid[d].data(), *f = trace_.inertia.f_s[d].data(),
-               *star = trace_.predicted_c[d].data(), *convective = trace_.convective_c[d].data();
+               *star = trace_.predictor.fluid()[d].data(),
+               *convective = trace_.predictor.convective_fluid()[d].data();
   const double *f1 = next_.f_s.data(), *a1 = next_.alpha.data(), *p0 = now_.p_c.data(),
                *p1 = next_.p_c.data();
   const double *v0 = now_.u_c[d].data(), *v1 = next_.u_c[d].data();

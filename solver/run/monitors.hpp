@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "solver/run/state.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 

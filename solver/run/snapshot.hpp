@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/output/cell_fields.hpp"
-#include "solver/run/state.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/operators/mixture.hpp"
-#include "solver/run/state.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 

@@ -7,6 +7,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "solver/run/initial_state.hpp"
+
 namespace granvof {
 namespace {
 

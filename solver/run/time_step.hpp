@@ -1,22 +1,20 @@
-// One time step of the gas-liquid-solid model: the algorithm, one named operator a line.
+// One time step of the gas-liquid-solid model: a list of stages, each an operator or a few.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "solver/operators/aperture.hpp"
 #include "solver/operators/continuity_tree.hpp"
 #include "solver/operators/coupled_pressure.hpp"
-#include "solver/operators/friction.hpp"
 #include "solver/operators/granular_temperature.hpp"
 #include "solver/operators/implicit_viscosity.hpp"
 #include "solver/operators/interface_transport.hpp"
-#include "solver/operators/interphase_drag.hpp"
-#include "solver/operators/rheology.hpp"
-#include "solver/operators/viscosity.hpp"
+#include "solver/operators/solid_momentum.hpp"
 #include "solver/run/energy_budget.hpp"
-#include "solver/run/state.hpp"
 #include "solver/run/stopwatch.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 
@@ -29,12 +27,6 @@ struct StepReport {
   double liquid_left = 0.0, solid_left = 0.0;  // volumes that left through sides, net [m3]
 };
 
-// Accelerations beside gravity, on the faces of each direction [m/s2]: the sources of a manufactured
-// solution.
-struct BodyAcceleration {
-  FaceField solid, fluid;
-};
-
 class TimeStep {
  public:
   TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary);
@@ -43,20 +35,45 @@ class TimeStep {
   // ghosts filled, only if the report says accepted.
   StepReport advance(const State& now, double dt, State& next, const BodyAcceleration* extra = nullptr);
 
+  // A step that is under way, and what its stages leave each other beside the operators' own fields.
+  struct Attempt {
+    const State& now;
+    double dt;
+    State& next;
+    const BodyAcceleration* extra;
+    StepReport report{};
+    double viscous_power = 0.0;            // of the fluid, explicit or implicit [W]
+    double elastic = 0.0;                  // stored once the grains were carried [J]
+    const LiquidPassed* passed = nullptr;  // what crossed the faces
+    Friction::Power stress{};              // of the solid
+    GranularLosses granular{};
+  };
+  struct Stage {
+    const char* part;                                       // of the cost that it counts to
+    const char* equations;                                  // of the paper that it serves, if any
+    const char* does;                                       // in a line
+    void (TimeStep::*run)(Attempt&);                        // states why the step is refused, if it is
+    bool (TimeStep::*due)(const Attempt&) const = nullptr;  // always, if null
+  };
+  // The algorithm, in order: docs/theory/numerics.md shows this list.
+  static std::span<const Stage> stages();
+
   const Stopwatch& cost() const { return cost_; }
 
  private:
-  void stir_grains(const State& now, double dt);
-  void predict(const State& now, double dt);
-  void add_to_predictor(const BodyAcceleration& extra, double dt);
-  void apply_friction(const State& now, double dt, State& next, StepReport& report);
-  bool bears_explicit_viscosity(double dt) const;
-  bool apply_viscosity(const State& now, double dt, State& next);
-  void dilate(double dt, State& next);
-  void account_energy(const State& now, double dt, const Friction::Power& stress,
-                      const GranularLosses& granular, double carried, const LiquidPassed& passed,
-                      State& next);
-  std::string reason_to_refuse(const State& now, double dt, const StepReport& report) const;
+  void close(Attempt& step);
+  void predict(Attempt& step);
+  void shear_solid(Attempt& step);
+  void diffuse_fluid(Attempt& step);
+  void press(Attempt& step);
+  void balance_fluxes(Attempt& step);
+  void carry_solid(Attempt& step);
+  void carry_liquid(Attempt& step);
+  void pack(Attempt& step);
+  void agitate(Attempt& step);
+  void account(Attempt& step);
+  bool outruns_explicit_viscosity(const Attempt& step) const { return !viscosity_.bears(step.dt); }
+  bool packing_follows_shear(const Attempt&) const { return scene_.model.shear_dilatancy; }
 
   const Grid& grid_;
   const Scene& scene_;
@@ -66,8 +83,10 @@ class TimeStep {
   InterphaseDrag drag_;
   Rheology rheology_;
   FluidViscosity viscosity_;
-  std::optional<ImplicitViscosity> implicit_viscosity_;  // of the first step that needs it on
-  Friction friction_;
+  MomentumPredictor predictor_;
+  SolidMomentum solid_momentum_;
+  // Of the first step that needs it on: few scenes do, and it takes an eighth of a run's memory.
+  std::optional<ImplicitViscosity> implicit_viscosity_;
   CoupledPressure pressure_;
   InterfaceTransport interface_;
   GranularTemperature temperature_;
@@ -75,16 +94,10 @@ class TimeStep {
   bool whole_columns_;  // else the tree closes continuity
   ContinuityTree continuity_tree_;
   EnergyBudget budget_;
-  FaceField predicted_s_, predicted_c_;  // explicit predictors [m/s]
-  FaceField convective_c_;               // convective part of the fluid's [m/s2]
-  double upwind_ = 0.0;                  // power that the upwinding of both momenta takes [W]
-  double viscous_power_ = 0.0;           // of the explicit viscous force [W]
-  FaceField mass_, rhs_;                 // of the implicit solid momentum
-  FaceField flux_s_, flux_c_;            // f_s u_s, f_c u_c through the faces [m/s]
-  FaceField flux_c_solved_;              // f_c u_c before continuity was closed
-  Field stirred_;                        // Theta that the kinetic viscosity is taken at [m2/s2]
-  Field production_;                     // of Theta: what the kinetic stress dissipates [W/m3]
-  double kinematic_viscosity_ = 0.0;     // largest of the fluid, LES included [m2/s]
+  FaceField flux_s_, flux_c_;  // f_s u_s, f_c u_c through the faces [m/s]
+  FaceField flux_c_solved_;    // f_c u_c before continuity was closed
+  Field stirred_;              // Theta that the kinetic viscosity is taken at [m2/s2]
+  Field production_;           // of Theta: what the kinetic stress dissipates [W/m3]
   Stopwatch cost_;
 };
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "solver/grid/whole_box.hpp"
-#include "solver/run/state.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 

@@ -1,5 +1,5 @@
-// Where the energy of a coupled run goes, in the terms of the continuum (solver/run/energy_terms.hpp) as far
-// as both have them.
+// Where the energy of a coupled run goes, in the terms of the continuum (solver/state/energy_terms.hpp) as
+// far as both have them.
 //
 // Each term is measured by itself: the beads' from their forces and speeds in every DEM step, the fluid's
 // from the terms of its momentum equation in every fluid step, stored energies from the state. So the budget

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/grid/boundary.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof::test {
 
@@ -78,6 +79,14 @@ struct Tank {
       each(grid.cells_and_ghosts(ghost_layers),
            [&](int i, int j, int k, std::ptrdiff_t c) { u[d][c] = value[d](face(d, i, j, k)); });
     return u;
+  }
+  // At rest, without pressures, grains and liquid everywhere alike; they touch at f_s,min.
+  State uniform_state(double f_s, double alpha = 1.0) const {
+    State state(grid);
+    state.f_s.fill(f_s);
+    state.alpha.fill(alpha);
+    state.packing.fill(scene.contact.solid_fraction_min);
+    return state;
   }
   // Random values on the inner faces, 0 on closed sides, periodic ghosts filled.
   FaceField random_faces(double lower, double upper) {

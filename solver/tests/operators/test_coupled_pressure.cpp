@@ -22,33 +22,28 @@ struct Step {
   explicit Step(Scene given)
       : s(std::move(given)),
         aperture(s.grid, s.scene),
-        f_s(s.grid),
-        alpha(s.grid, 1.0),
-        theta(s.grid),
-        restitution(s.grid, 0.9),
-        p_c(s.grid),
-        p_s(s.grid),
-        u_s(s.grid),
-        u_c(s.grid),
+        state(s.uniform_state(0.0)),
+        rheology(s.grid),
         flux_s(s.grid),
         flux_c(s.grid),
         inertia(s.grid),
-        beta(s.grid) {}
+        beta(s.grid) {
+    rheology.restitution.fill(0.9);
+  }
   void solve(double dt) {
     s.boundary.fill_scalar(f_s, 0.0);
     s.boundary.fill_scalar(alpha, 0.0);
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
-    drag.update(s.boundary, u_s, u_c, f_s, alpha, inertia, PartCells(s.grid));
+    drag.update(s.boundary, state, inertia, rheology.part_cells);
     beta = drag.beta();
     for (int d = 0; d < s.grid.dim; ++d)  // where there are no grains both move as one from the start
       s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
         if (inertia.f_s[d][c] < least_solid_fraction) u_s[d][c] = u_c[d][c];
       });
     CoupledPressure pressure(s.grid, s.scene, s.boundary);
-    const Field touching(s.grid, s.scene.contact.solid_fraction_min);
-    report = pressure.solve(dt, f_s, {theta, restitution, Field(s.grid), touching}, inertia, beta, aperture,
-                            u_s, u_s, u_c, p_c, p_s, flux_s, flux_c);
+    const State now = state;
+    report = pressure.solve(dt, now, rheology, inertia, beta, aperture, state, flux_s, flux_c);
   }
   // Both velocities after a time dt of free fall.
   void fall(double dt) {
@@ -57,8 +52,8 @@ struct Step {
   }
   double solid_after(double dt, std::ptrdiff_t c) const { return f_s[c] - dt * s.divergence(flux_s, c); }
   closures::PressureAndSlope law(double f, std::ptrdiff_t c) const {
-    return closures::solid_pressure(std::fmax(f, 0.0), theta[c], restitution[c], s.scene.solid.density,
-                                    s.scene.contact, s.scene.model.dilatancy_pressure);
+    return closures::solid_pressure(std::fmax(f, 0.0), theta[c], rheology.restitution[c],
+                                    s.scene.solid.density, s.scene.contact, s.scene.model.dilatancy_pressure);
   }
   // Continuity and the law in every cell, recomputed from the fluxes that came out.
   void expect_closed(double dt) const {
@@ -76,8 +71,11 @@ struct Step {
   }
   Tank s;
   Aperture aperture;
-  Field f_s, alpha, theta, restitution, p_c, p_s;
-  FaceField u_s, u_c, flux_s, flux_c;
+  State state;
+  Field &f_s = state.f_s, &alpha = state.alpha, &theta = state.theta, &p_c = state.p_c, &p_s = state.p_s;
+  FaceField &u_s = state.u_s, &u_c = state.u_c;
+  Rheology rheology;
+  FaceField flux_s, flux_c;
   FaceInertia inertia;
   FaceField beta;  // drag of the step [kg/(m3 s)]
   PressureReport report;

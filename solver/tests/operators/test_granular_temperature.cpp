@@ -13,11 +13,11 @@ using test::Tank;
 using test::unit_scene;
 
 // What the kinetic stress (16) of the grains dissipates under a strain [W/m3], Theta predicted as in a step.
-Field production_of(const Tank& s, double dt, const Field& theta, const Field& f_s, const Field& beta,
-                    const StrainRate& strain, const GranularTemperature& temperature, Rheology& rheology) {
+Field production_of(const Tank& s, double dt, const State& now, const Field& beta, const StrainRate& strain,
+                    const GranularTemperature& temperature, Rheology& rheology) {
   Field stirred(s.grid), production(s.grid);
-  temperature.predict(dt, theta, f_s, beta, rheology.restitution, strain, stirred);
-  rheology.update_kinetic_viscosity(s.grid, s.scene, s.boundary, f_s, stirred);
+  temperature.predict(dt, now, beta, rheology.restitution, strain, stirred);
+  rheology.update_kinetic_viscosity(s.grid, s.scene, s.boundary, now.f_s, stirred);
   for_each(s.grid.cells, [&](std::ptrdiff_t c) {
     const double div = strain.divergence[c];
     production[c] = rheology.kinetic_viscosity[c] * (2.0 * strain.squared[c] + div * div);
@@ -29,14 +29,15 @@ Field production_of(const Tank& s, double dt, const Field& theta, const Field& f
 struct Gas {
   explicit Gas(const Scene& given, double f_s_value, double theta_value)
       : s(given),
-        f_s(s.grid, f_s_value),
-        theta(s.grid, theta_value),
-        next(s.grid),
+        now(s.uniform_state(f_s_value)),
+        next(now),
         beta(s.grid),
         flux(s.grid),
         rheology(s.grid),
         strain(s.grid),
-        temperature(s.grid, s.scene, s.boundary) {}
+        temperature(s.grid, s.scene, s.boundary) {
+    theta.fill(theta_value);
+  }
   static Scene scene(double e0) {
     Scene scene = unit_scene(2, 4);
     for (int d : {0, 1}) make_periodic(scene, d);
@@ -51,11 +52,10 @@ struct Gas {
   }
   // f_s stays as it is: what the local balance does to Theta alone.
   void advance(double dt) {
-    rheology.update(s.grid, s.scene, s.boundary, f_s, theta, Field(s.grid, 1.0), Field(s.grid),
-                    Field(s.grid, s.scene.contact.solid_fraction_min), strain);
-    const Field production = production_of(s, dt, theta, f_s, beta, strain, temperature, rheology);
-    temperature.advance(dt, theta, f_s, f_s, flux, beta, rheology, strain, production, next);
-    std::swap(theta, next);
+    rheology.update(s.grid, s.scene, s.boundary, now, strain);
+    const Field production = production_of(s, dt, now, beta, strain, temperature, rheology);
+    temperature.advance(dt, now, flux, beta, rheology, strain, production, next);
+    std::swap(theta, next.theta);
     s.boundary.fill_scalar(theta);
   }
   double value() const {
@@ -63,7 +63,8 @@ struct Gas {
     return theta[s.grid.cells.index(1, 1, 0)];
   }
   Tank s;
-  Field f_s, theta, next;
+  State now, next;
+  Field& theta = now.theta;
   Field beta;
   FaceField flux;
   Rheology rheology;
@@ -224,8 +225,7 @@ TEST(GranularTemperature, PredictionInSteadyCompression) {
   const double a = 12.0 * loss * f * f * rho * g0 / (d * std::sqrt(M_PI));
   for (const double sign : {1.0, -1.0}) {  // compression takes, expansion gives nothing here
     gas.strain.divergence.fill(sign * div);
-    gas.temperature.predict(1e-3, gas.theta, gas.f_s, gas.beta, gas.rheology.restitution, gas.strain,
-                            predicted);
+    gas.temperature.predict(1e-3, gas.now, gas.beta, gas.rheology.restitution, gas.strain, predicted);
     const double b = std::max(-3.0 * loss * f * f * rho * g0 * sign * div, 0.0);
     const double mu = f * 0.8 * rho * d * f * g0 * (1.0 + e) / std::sqrt(M_PI);
     const double c = mu * (4.0 * stretch * stretch + (5.0 / 3.0 - 2.0 / 3.0) * div * div);
@@ -246,11 +246,11 @@ TEST(GranularTemperature, AWaveDecaysByItsConductivity) {
   gas.s.boundary.fill_scalar(gas.theta);
   gas.rheology.restitution.fill(1.0);
   gas.rheology.kinetic_viscosity.fill(mu);
-  gas.temperature.advance(dt, gas.theta, gas.f_s, gas.f_s, gas.flux, gas.beta, gas.rheology, gas.strain,
-                          Field(gas.s.grid), gas.next);
+  gas.temperature.advance(dt, gas.now, gas.flux, gas.beta, gas.rheology, gas.strain, Field(gas.s.grid),
+                          gas.next);
   const double h = gas.s.grid.h[0],
                rate = 2.5 * mu * (2.0 - 2.0 * std::cos(2.0 * M_PI * h)) / (h * h) / (1.5 * f * rho);
-  EXPECT_NEAR(gas.s.largest(gas.next) - gas.s.smallest(gas.next),
+  EXPECT_NEAR(gas.s.largest(gas.next.theta) - gas.s.smallest(gas.next.theta),
               (gas.s.largest(gas.theta) - gas.s.smallest(gas.theta)) / (1.0 + dt * rate), 1e-3 * amplitude);
   EXPECT_GT(dt * rate, 0.01);
 }
@@ -261,7 +261,10 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       Scene scene = unit_scene(dim, 6);
       scene.sides[top].kind = SideKind::open;
       Tank s(scene);
-      Field f = s.random_cells(-0.2, 0.64), theta = s.random_cells(-0.1, 0.3), next(s.grid);
+      State now = s.uniform_state(0.0);
+      Field &f = now.f_s, &theta = now.theta;
+      f = s.random_cells(-0.2, 0.64);
+      theta = s.random_cells(-0.1, 0.3);
       s.each_cell([&](int, int, int, std::ptrdiff_t c) {
         f[c] = std::fmax(f[c], 0.0);
         theta[c] = std::fmax(theta[c], 0.0);
@@ -269,19 +272,19 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       s.boundary.fill_scalar(f, 0.0);
       s.boundary.fill_scalar(theta);
       Rheology rheology(s.grid);
-      rheology.update(s.grid, s.scene, s.boundary, f, theta, Field(s.grid, 1.0), Field(s.grid),
-                      Field(s.grid, s.scene.contact.solid_fraction_min), StrainRate(s.grid));
+      rheology.update(s.grid, s.scene, s.boundary, now, StrainRate(s.grid));
       FaceField u = s.random_faces(-30.0, 30.0);
       s.boundary.fill_velocity(u, Phase::solid);
       StrainRate strain(s.grid);
       strain.update(s.grid, u);
       GranularTemperature temperature(s.grid, s.scene, s.boundary);
       const Field beta = s.random_cells(0.0, 1e5);
-      const Field production = production_of(s, 1e-3, theta, f, beta, strain, temperature, rheology);
-      temperature.advance(1e-3, theta, f, f, FaceField(s.grid), beta, rheology, strain, production, next);
+      const Field production = production_of(s, 1e-3, now, beta, strain, temperature, rheology);
+      State next = now;
+      temperature.advance(1e-3, now, FaceField(s.grid), beta, rheology, strain, production, next);
       s.each_cell([&](int, int, int, std::ptrdiff_t c) {
-        ASSERT_TRUE(std::isfinite(next[c]));
-        ASSERT_GE(next[c], 0.0);
+        ASSERT_TRUE(std::isfinite(next.theta[c]));
+        ASSERT_GE(next.theta[c], 0.0);
       });
     }
 }

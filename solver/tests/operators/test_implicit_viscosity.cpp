@@ -27,10 +27,11 @@ struct Implicit {
   // u_c after a step whose explicit part moved `old` by `increment`.
   FaceField after(double dt, const FaceField& old, const FaceField& increment, double alpha_below = 1.0,
                   double level = 2.0) {
-    const Field solid = s.cells([this](const Vec3&) { return f_s; });
-    const Field alpha = s.cells([=](const Vec3& x) { return x[1] < level ? alpha_below : 0.0; });
-    inertia.update(s.grid, s.scene, solid, alpha);
-    viscosity.update(s.boundary, old, solid, alpha);
+    State now = s.uniform_state(f_s);
+    now.alpha = s.cells([=](const Vec3& x) { return x[1] < level ? alpha_below : 0.0; });
+    now.u_c = old;
+    inertia.update(s.grid, s.scene, now.f_s, now.alpha);
+    viscosity.update(s.boundary, now);
     FaceField u = old;
     for (int d = 0; d < s.grid.dim; ++d)
       s.each(s.grid.fluid_faces(d), [&](int, int, int, std::ptrdiff_t c) { u[d][c] += increment[d][c]; });

@@ -36,12 +36,12 @@ TEST(FaceInertia, ArithmeticMeanOfTheTwoCells) {
 
 struct Dragged {
   Dragged(int dim, bool drag, double f_s, double alpha) : s(scene_of(dim, drag)), drag_(s.grid, s.scene) {
+    State state = s.uniform_state(f_s, alpha);
+    state.u_s = s.faces(constant(0.1, -0.2, 0.05));
+    state.u_c = s.faces(constant(0.4, 0.2, -0.15));
     FaceInertia inertia(s.grid);
-    const Field alpha_cells = s.cells([=](const Vec3&) { return alpha; });
-    const Field f_s_cells = s.cells([=](const Vec3&) { return f_s; });
-    inertia.update(s.grid, s.scene, f_s_cells, alpha_cells);
-    drag_.update(s.boundary, s.faces(constant(0.1, -0.2, 0.05)), s.faces(constant(0.4, 0.2, -0.15)),
-                 f_s_cells, alpha_cells, inertia, PartCells(s.grid));
+    inertia.update(s.grid, s.scene, state.f_s, state.alpha);
+    drag_.update(s.boundary, state, inertia, PartCells(s.grid));
   }
   static Scene scene_of(int dim, bool drag) {
     Scene scene = unit_scene(dim, 4);
@@ -80,11 +80,10 @@ TEST(InterphaseDrag, ZeroWithoutGrainsAndWhereSwitchedOff) {
 
 TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
   Dragged d(2, true, 0.5, 1.0);
+  const State empty = d.s.uniform_state(0.0);
   FaceInertia inertia(d.s.grid);
-  const Field alpha(d.s.grid, 1.0);
-  inertia.update(d.s.grid, d.s.scene, Field(d.s.grid), alpha);
-  d.drag_.update(d.s.boundary, FaceField(d.s.grid), FaceField(d.s.grid), Field(d.s.grid), alpha, inertia,
-                 PartCells(d.s.grid));
+  inertia.update(d.s.grid, d.s.scene, empty.f_s, empty.alpha);
+  d.drag_.update(d.s.boundary, empty, inertia, PartCells(d.s.grid));
   d.expect(0.0);
 }
 
@@ -96,12 +95,13 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     Scene scene = unit_scene(2, 4);
     scene.numerics.solid_flux = flux;
     const Tank s(scene);
-    const Field alpha(s.grid, 1.0), f_s = s.cells([=](const Vec3&x) { return x[1] < 0.5 ? below : 0.0; });
+    State state = s.uniform_state(0.0);
+    state.f_s = s.cells([=](const Vec3& x) { return x[1] < 0.5 ? below : 0.0; });
+    state.u_c = s.faces(constant(0.0, slip, 0.0));
     FaceInertia inertia(s.grid);
-    inertia.update(s.grid, s.scene, f_s, alpha);
+    inertia.update(s.grid, s.scene, state.f_s, state.alpha);
     InterphaseDrag drag(s.grid, s.scene);
-    drag.update(s.boundary, s.faces(constant(0.0, 0.0, 0.0)), s.faces(constant(0.0, slip, 0.0)), f_s, alpha,
-                inertia, PartCells(s.grid));
+    drag.update(s.boundary, state, inertia, PartCells(s.grid));
     return drag.beta()[1][s.grid.cells.index(1, 2, 0)];
   };
   const Tank s(unit_scene(2, 4));
@@ -122,16 +122,16 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
 // hindered by no more than that; horizontal faces and the centres of cells know nothing of it.
 TEST(Drag, GrainsAtRestAreNotDraggedByTheFluidAboveThem) {
   const Tank s(unit_scene(2, 4));
-  const Field f_s = s.cells([](const Vec3& x) { return x[1] < 0.5 ? 0.5 : 0.1; });
-  const Field alpha(s.grid, 1.0);
+  State state = s.uniform_state(0.0);
+  state.f_s = s.cells([](const Vec3& x) { return x[1] < 0.5 ? 0.5 : 0.1; });
   FaceInertia inertia(s.grid);
-  inertia.update(s.grid, s.scene, f_s, alpha);
+  inertia.update(s.grid, s.scene, state.f_s, state.alpha);
   const auto beta = [&](double at_rest, std::ptrdiff_t cell, int d, double held = 0.0) {
     PartCells rest(s.grid);
     rest.at_rest[cell] = at_rest;
     rest.held[cell] = held;
     InterphaseDrag drag(s.grid, s.scene);
-    drag.update(s.boundary, FaceField(s.grid), FaceField(s.grid), f_s, alpha, inertia, rest);
+    drag.update(s.boundary, state, inertia, rest);
     return std::pair(drag.beta()[d][s.grid.cells.index(1, 2, 0)],
                      drag.beta_of_cells()[s.grid.cells.index(1, 1, 0)]);
   };

@@ -26,12 +26,14 @@ Scene submerged(double density) {
 std::array<double, rows> free_sides(const Scene& scene, const std::array<double, rows>& fractions,
                                     double theta, double p_s) {
   const Tank s(scene);
-  Field f_s(s.grid);
-  s.each_cell([&](int, int j, int, std::ptrdiff_t c) { f_s[c] = fractions[static_cast<std::size_t>(j)]; });
-  s.boundary.fill_scalar(f_s);
+  State state = s.uniform_state(0.0);
+  s.each_cell(
+      [&](int, int j, int, std::ptrdiff_t c) { state.f_s[c] = fractions[static_cast<std::size_t>(j)]; });
+  s.boundary.fill_scalar(state.f_s);
+  state.theta.fill(theta);
+  state.p_s.fill(p_s);
   Rheology rheology(s.grid);
-  rheology.update(s.grid, s.scene, s.boundary, f_s, Field(s.grid, theta), Field(s.grid, 1.0),
-                  Field(s.grid, p_s), Field(s.grid, packed), StrainRate(s.grid));
+  rheology.update(s.grid, s.scene, s.boundary, state, StrainRate(s.grid));
   std::array<double, rows> side{};
   for (int j = 0; j < rows; ++j)
     side[static_cast<std::size_t>(j)] = rheology.free_side[s.grid.cells.index(2, j, 0)];
@@ -69,11 +71,11 @@ TEST(FreeSide, NoneOfAgitatedGrains) {
 TEST(Rheology, RestitutionIsThatOfTheCellsFluid) {
   const Tank s(submerged(2500.0));
   const double theta = 1e-4;
-  Field alpha(s.grid, 0.0);
-  s.each_cell([&](int, int j, int, std::ptrdiff_t c) { alpha[c] = j < rows / 2 ? 1.0 : 0.0; });
+  State state = s.uniform_state(0.3);
+  state.theta.fill(theta);
+  s.each_cell([&](int, int j, int, std::ptrdiff_t c) { state.alpha[c] = j < rows / 2 ? 1.0 : 0.0; });
   Rheology rheology(s.grid);
-  rheology.update(s.grid, s.scene, s.boundary, Field(s.grid, 0.3), Field(s.grid, theta), alpha, Field(s.grid),
-                  Field(s.grid, packed), StrainRate(s.grid));
+  rheology.update(s.grid, s.scene, s.boundary, state, StrainRate(s.grid));
   const auto expected = [&](const Fluid& fluid) {
     return closures::effective_restitution(s.scene.solid.restitution, theta, 2500.0, s.scene.solid.diameter,
                                            fluid.viscosity);
@@ -87,8 +89,7 @@ TEST(Rheology, RestitutionIsThatOfTheCellsFluid) {
 TEST(Rheology, PressureBeyondAWallIsThatInside) {
   const Tank s(box_scene(2, {4, rows, 1}, {0.04, 0.08, 1.0}));
   Rheology rheology(s.grid);
-  rheology.update(s.grid, s.scene, s.boundary, Field(s.grid, 0.6), Field(s.grid), Field(s.grid, 1.0),
-                  Field(s.grid), Field(s.grid, packed), StrainRate(s.grid));
+  rheology.update(s.grid, s.scene, s.boundary, s.uniform_state(0.6), StrainRate(s.grid));
   const double inside = rheology.enduring_pressure[s.grid.cells.index(0, 0, 0)];
   EXPECT_GT(inside, 0.0);
   EXPECT_EQ(rheology.enduring_pressure[s.grid.cells.index(-1, 0, 0)], inside);

@@ -7,6 +7,7 @@
 
 #include "solver/output/checkpoint.hpp"
 #include "solver/run/alarms.hpp"
+#include "solver/run/initial_state.hpp"
 #include "solver/scene/scales.hpp"
 #include "solver/tests/output/samples.hpp"
 #include "solver/tests/run/small_runs.hpp"

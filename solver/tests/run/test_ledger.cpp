@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "solver/run/energy_terms.hpp"
+#include "solver/state/energy_terms.hpp"
 #include "solver/tests/cases_directory.hpp"
 #include "solver/tests/run/small_runs.hpp"
 #include "solver/tests/temporary_directory.hpp"

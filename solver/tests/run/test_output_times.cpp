@@ -8,8 +8,8 @@
 #include "solver/output/extract.hpp"
 #include "solver/output/fields_file.hpp"
 #include "solver/output/series_file.hpp"
-#include "solver/run/energy_terms.hpp"
 #include "solver/run/snapshot.hpp"
+#include "solver/state/energy_terms.hpp"
 #include "solver/tests/output/samples.hpp"
 #include "solver/tests/run/small_runs.hpp"
 

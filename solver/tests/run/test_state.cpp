@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/contact_pressure.hpp"
-#include "solver/run/state.hpp"
+#include "solver/run/initial_state.hpp"
+#include "solver/state/state.hpp"
 #include "solver/tests/operators/tank.hpp"
 
 namespace granvof {

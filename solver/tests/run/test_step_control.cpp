@@ -1,6 +1,7 @@
 // Every limit of the time step, one at a time; the start of a scene; and what the monitors notice.
 #include <gtest/gtest.h>
 
+#include "solver/run/initial_state.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/run/step_control.hpp"
 #include "solver/tests/run/small_runs.hpp"

@@ -1,4 +1,4 @@
-#include "solver/run/state.hpp"
+#include "solver/run/initial_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,16 +62,6 @@ void settle(const Grid& grid, const Scene& scene, State& s) {
 }
 
 }  // namespace
-
-State::State(const Grid& grid) {
-  for (const CellQuantity& q : cell_quantities) this->*q.field = Field(grid);
-  for (const FaceQuantity& q : face_quantities) this->*q.field = FaceField(grid);
-}
-
-void State::fill_ghosts(const Boundary& boundary) {
-  for (const CellQuantity& q : cell_quantities) q.fill(boundary, this->*q.field);
-  for (const FaceQuantity& q : face_quantities) boundary.fill_velocity(this->*q.field, q.phase);
-}
 
 State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary) {
   State s(grid);

@@ -151,7 +151,7 @@ inline constexpr std::array energy_terms{
     EnergyTerm{"energy_residual", &EnergyTerms::residual, EnergyKind::residual, -1, false,
                "not accounted for",
                "not accounted for so far: the change of all stored energy less all the other terms",
-               "solver/run/energy_terms.hpp"},
+               "solver/state/energy_terms.hpp"},
 };
 
 inline double EnergyTerms::numerical() const {

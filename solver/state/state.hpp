@@ -5,7 +5,7 @@
 #include <string>
 
 #include "solver/grid/boundary.hpp"
-#include "solver/run/energy_terms.hpp"
+#include "solver/state/energy_terms.hpp"
 
 namespace granvof {
 
@@ -78,10 +78,5 @@ void for_each_field(const Grid& grid, StateType& s, Visit&& visit) {
   for (const FaceQuantity& q : face_quantities)
     for (int d = 0; d < grid.dim; ++d) visit(FieldOfState{nullptr, &q, d}, (s.*q.field)[d]);
 }
-
-// The state at the start of a scene: the bed and the liquid by volume share of each cell, both at rest, fluid
-// pressure hydrostatic, no solid pressure: the packing takes the bed's weight in the first steps. Where the
-// model carries the packing, the bed bears it from the start.
-State initial_state(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
 }  // namespace granvof

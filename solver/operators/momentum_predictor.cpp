@@ -1,0 +1,71 @@
+#include "solver/operators/momentum_predictor.hpp"
+
+#include <cmath>
+
+#include "solver/operators/convection.hpp"
+#include "solver/scene/gravity.hpp"
+
+namespace granvof {
+
+MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const Boundary& boundary)
+    : grid_(grid),
+      scene_(scene),
+      boundary_(boundary),
+      limited_(scene.numerics.solid_flux != SolidFlux::upwind),
+      solid_(grid),
+      fluid_(grid),
+      convective_(grid) {}
+
+void MomentumPredictor::convect_fluid(const State& now, const FaceInertia& inertia, int d) {
+  const Range faces = grid_.fluid_faces(d);
+  if (limited_ && !scene_.liquid_boxes.empty()) {
+    const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
+    upwind_power_ +=
+        grid_.cell_volume * convective_acceleration_limited_in(inertia.fluid[d], between_gas_and_liquid,
+                                                               grid_, now.u_c, d, faces, convective_[d]);
+  } else {
+    upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.fluid[d], grid_, now.u_c, d, faces,
+                                                                 limited_, convective_[d]);
+  }
+}
+
+void MomentumPredictor::update(double dt, const State& now, const FaceInertia& inertia,
+                               const FluidViscosity& viscosity, const Aperture& aperture,
+                               const BodyAcceleration* extra) {
+  upwind_power_ = viscous_power_ = 0.0;
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
+    const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
+    convect_fluid(now, inertia, d);
+    fluid_[d] = convective_[d];
+    viscosity.add_acceleration(now.u_c, inertia, d, fluid, fluid_[d]);
+    viscous_power_ += viscosity.power_on(now.u_c, inertia, d, convective_[d], fluid_[d]);
+    upwind_power_ += grid_.cell_volume *
+                     convective_acceleration(inertia.solid[d], grid_, now.u_s, d, solid, limited_, solid_[d]);
+    bound_convection(grid_, now.u_s, d, solid, dt, inertia.f_s[d], solid_that_counts, solid_[d]);
+    const double *open = aperture[d].data(), *f = inertia.f_s[d].data(), *m = inertia.fluid[d].data();
+    const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
+    double *c_star = fluid_[d].data(), *s_star = solid_[d].data();
+    for_each(grid_.cells, fluid, [=](std::ptrdiff_t c) {
+      const double pressure = (1.0 - f[c]) * (p[c] - p[c - s]) * inv_h / m[c];
+      c_star[c] = open[c] * (uc[c] + dt * (c_star[c] + gravity - pressure));
+    });
+    for_each(grid_.cells, solid,
+             [=](std::ptrdiff_t c) { s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity)); });
+    if (extra != nullptr) add(dt, aperture, *extra, d);
+    boundary_.exchange(fluid_[d]);
+    boundary_.exchange(solid_[d]);
+  }
+}
+
+void MomentumPredictor::add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d) {
+  const double *open = aperture[d].data(), *fluid = extra.fluid[d].data(), *solid = extra.solid[d].data();
+  double *c_star = fluid_[d].data(), *s_star = solid_[d].data();
+  for_each(grid_.cells, grid_.fluid_faces(d),
+           [=](std::ptrdiff_t c) { c_star[c] += dt * open[c] * fluid[c]; });
+  for_each(grid_.cells, grid_.inner_faces(d),
+           [=](std::ptrdiff_t c) { s_star[c] += dt * open[c] * solid[c]; });
+}
+
+}  // namespace granvof

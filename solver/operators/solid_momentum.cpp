@@ -1,0 +1,58 @@
+#include "solver/operators/solid_momentum.hpp"
+
+namespace granvof {
+
+SolidMomentum::SolidMomentum(const Grid& grid, const Scene& scene, const Boundary& boundary)
+    : grid_(grid), boundary_(boundary), friction_(grid, scene, boundary), mass_(grid), rhs_(grid) {}
+
+linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumPredictor& predicted,
+                                    const FaceInertia& inertia, const InterphaseDrag& drag,
+                                    const Rheology& rheology, const Aperture& aperture, State& next) {
+  set_balance(dt, now, predicted, inertia, drag, aperture, next);
+  const linear::Report report =
+      friction_.solve(mass_, rhs_, inertia, aperture, rheology, now.u_strain, next.u_s);
+  recover_fluid(dt, predicted, inertia, drag, next);
+  next.u_strain = next.u_s;
+  return report;
+}
+
+void SolidMomentum::set_balance(double dt, const State& now, const MomentumPredictor& predicted,
+                                const FaceInertia& inertia, const InterphaseDrag& drag,
+                                const Aperture& aperture, State& next) {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const std::ptrdiff_t s = grid_.stride(d);
+    const double inv_h = 1.0 / grid_.h[d], inv_dt = 1.0 / dt;
+    const double *f = inertia.f_s[d].data(), *solid = inertia.solid[d].data(),
+                 *fluid = inertia.fluid[d].data();
+    const double *beta = drag.beta()[d].data(), *open = aperture[d].data();
+    const double *p_c = now.p_c.data(), *p_s = now.p_s.data(), *us = now.u_s[d].data();
+    const double *c_star = predicted.fluid()[d].data(), *s_star = predicted.solid()[d].data();
+    double *mass = mass_[d].data(), *rhs = rhs_[d].data(), *guess = next.u_s[d].data();
+    for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
+      const double m_s = solid[c] * inv_dt, m_c = fluid[c] * inv_dt;
+      const double beta_eff = beta[c] * m_c / (m_c + beta[c]);
+      mass[c] = m_s + beta_eff;
+      rhs[c] = m_s * s_star[c] + beta_eff * c_star[c] - f[c] * (p_c[c] - p_c[c - s]) * inv_h -
+               (p_s[c] - p_s[c - s]) * inv_h;
+      guess[c] = open[c] * (f[c] >= least_solid_fraction ? us[c] : c_star[c]);
+    });
+    boundary_.exchange(next.u_s[d]);
+  }
+}
+
+void SolidMomentum::recover_fluid(double dt, const MomentumPredictor& predicted, const FaceInertia& inertia,
+                                  const InterphaseDrag& drag, State& next) const {
+  for (int d = 0; d < grid_.dim; ++d) {
+    const double inv_dt = 1.0 / dt;
+    const double *fluid = inertia.fluid[d].data(), *beta = drag.beta()[d].data();
+    const double *c_star = predicted.fluid()[d].data(), *us = next.u_s[d].data();
+    double* uc = next.u_c[d].data();
+    for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+      const double m_c = fluid[c] * inv_dt;
+      uc[c] = (m_c * c_star[c] + beta[c] * us[c]) / (m_c + beta[c]);
+    });
+    boundary_.exchange(next.u_c[d]);
+  }
+}
+
+}  // namespace granvof
