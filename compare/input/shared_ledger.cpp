@@ -13,6 +13,8 @@ struct SharedTerm {
   std::vector<std::string_view> plus, minus;
 };
 
+constexpr std::string_view of_every_ledger = "lost_drag";  // a series without it has none
+
 const std::vector<SharedTerm>& table() {
   static const std::vector<SharedTerm> terms{
       {"released", {}, {"energy_potential"}},
@@ -59,7 +61,7 @@ std::vector<std::string_view> shared_terms() {
 Curve shared_term(const Run& run, std::string_view term) {
   const auto found = std::ranges::find(table(), term, &SharedTerm::name);
   Curve sum;
-  if (found == table().end() || run.curve("lost_drag").empty()) return sum;
+  if (found == table().end() || run.curve(of_every_ledger).empty()) return sum;
   add(sum, run, found->plus, 1.0);
   add(sum, run, found->minus, -1.0);
   return sum;
