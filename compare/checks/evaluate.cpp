@@ -153,6 +153,13 @@ Result evaluate_check(const Check& check, const Evaluation& evaluation, const Ru
   }
 }
 
+// The case that a record is held against: its own, whichever run is compared with it; that of the run where
+// no case has the record's name.
+Scene case_of_record(const std::filesystem::path& cases, const std::string& record, const Scene& of_run) {
+  const auto file = cases / (record + ".toml");
+  return std::filesystem::is_regular_file(file) ? load_scene(file) : of_run;
+}
+
 // A row for what is damaged and that no check may take.
 Result damaged_result(const std::string& run, const LoadedRun& damaged) {
   Result result;
@@ -249,8 +256,9 @@ Evaluation evaluate(const Table& table, Frequency frequency, const Paths& paths,
   }
   const Bands bands = read_bands(paths.records);
   std::map<std::string, std::vector<LoadedRun>> records;
-  const auto load = [&](const std::string& name, const Scene& scene) {
+  const auto load = [&](const std::string& name, const Scene& of_run) {
     if (left_out.records || records.contains(name)) return;
+    const Scene scene = case_of_record(paths.cases, name, of_run);
     records[name] = load_records(paths.records, name, scene);
     auto usable = usable_of(scene.name, records[name]);
     if (!usable.empty()) evaluation.records[name] = std::move(usable);

@@ -4,6 +4,9 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "compare/input/shared_ledger.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -16,6 +19,13 @@ std::string of_instant(const Parameters& p) {
 }
 std::string of_text(const std::optional<std::string>& text) {
   return text ? "-" + *text : "";
+}
+
+void read_term(const TomlEntry& entry, Parameters& p) {
+  p.term = entry.text("term");
+  const auto there = shared_terms();
+  if (std::ranges::find(there, *p.term) == there.end())
+    entry.fail("term", fmt::format("'{}' given; allowed: {}", *p.term, fmt::join(there, ", ")));
 }
 
 constexpr std::array table{
@@ -36,6 +46,8 @@ constexpr std::array table{
     ParameterEntry{"column", &Needs::published, [](const Parameters& p) { return p.column.has_value(); },
                    [](const TomlEntry& e, Parameters& p) { p.column = e.text("column"); },
                    [](const Parameters& p) { return of_text(p.column); }},
+    ParameterEntry{"term", &Needs::term, [](const Parameters& p) { return p.term.has_value(); }, read_term,
+                   [](const Parameters& p) { return of_text(p.term); }},
 };
 
 }  // namespace

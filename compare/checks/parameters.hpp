@@ -19,6 +19,7 @@ struct Parameters {
   std::optional<std::string> published;  // file in cases/published, and
   std::optional<std::string> column;     // the column of it that the metric is compared with
   std::optional<std::string> against;    // id of a second run
+  std::optional<std::string> term;       // of the energy, see compare/input/shared_ledger.hpp
 };
 
 // Which of them a metric needs; what is not needed is not allowed. `published` goes with `column`.
@@ -29,6 +30,7 @@ struct Needs {
   bool level = false;
   bool published = false;
   bool against = false;
+  bool term = false;
 };
 
 struct ParameterEntry {

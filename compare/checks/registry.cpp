@@ -8,6 +8,7 @@
 
 #include "compare/checks/whole_run.hpp"
 #include "compare/input/curves.hpp"
+#include "compare/input/shared_ledger.hpp"
 #include "compare/metrics/base_pressure.hpp"
 #include "compare/metrics/bed_slope.hpp"
 #include "compare/metrics/decay_rate.hpp"
@@ -184,6 +185,17 @@ Measured solid_height_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run.curve("y_solid_mean"), *p.at), "no solids at that time");
 }
 
+Measured solid_volume_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("solid_volume"), *p.at), "no solids at that time");
+}
+
+Measured energy_share(const Run& run, const Parameters& p, const FindRun&) {
+  if (!run.scene.bed) return {std::nullopt, "undefined: no column"};
+  const double unit = collapse_time(column_of(run));
+  return measured(share_of_released(run, *p.term, {unit * p.window->begin, unit * p.window->end}),
+                  "no energy budget in the series, or nothing released in the window");
+}
+
 Measured interface_height_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run.curve("interface_height"), *p.at), "no interface at that time");
 }
@@ -292,6 +304,11 @@ constexpr std::array table{
     MetricEntry{"grain_front", "m", "grain front (f_s >= 0.30) at t = at", at_only, grain_front_at},
     MetricEntry{"solid_height", "m", "height of the centre of mass of all solids at t = at", at_only,
                 solid_height_at},
+    MetricEntry{"solid_volume", "m3", "volume of all solids at t = at", at_only, solid_volume_at},
+    MetricEntry{"energy_share", "-",
+                "what a term of the energy takes of the potential energy released in a window of T, in terms "
+                "that DEM-VOF counts alike",
+                Needs{.window = true, .term = true}, energy_share},
     MetricEntry{"interface_height", "m", "height of alpha = 0.5 in the profile over the tank at t = at",
                 at_only, interface_height_at},
     MetricEntry{"liquid_front", "-", "x / a of the water front at tau = at", at_only, liquid_front_at},

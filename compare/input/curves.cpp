@@ -20,8 +20,7 @@ Curve run_out_by(const Run& run, const char* front) {
 }  // namespace
 
 ColumnSize column_of(const Run& run) {
-  const double nominal = run.scene.bed->box.upper[1] - run.scene.bed->box.lower[1];
-  return {run.facts.number("released_height_m").value_or(nominal), run.scene.gravity};
+  return {run.facts.number("released_height_m").value_or(run.scene.bed->nominal_height), run.scene.gravity};
 }
 
 Curve run_out_curve(const Run& run) {

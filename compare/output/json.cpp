@@ -34,6 +34,13 @@ Json json_run(const RunSummary& summary) {
   return run;
 }
 
+// The record that a run is shown beside: the first that a row judges it by, or that of its case.
+std::string record_of(const Evaluation& evaluation, const PlannedRun& plan) {
+  for (const Result& result : evaluation.results)
+    if (result.check.run == plan.id && result.check.reference.record) return *result.check.reference.record;
+  return plan.case_name;
+}
+
 Json json_result(const Result& result) {
   const Check& check = result.check;
   Json json{{"id", check.id},
@@ -157,7 +164,10 @@ std::string results_json(const Evaluation& evaluation, Frequency frequency, cons
   json["causes"] = Json::object();
   for (const Cause& cause : evaluation.causes) json["causes"][cause.key] = cause.text;
   json["runs"] = Json::array();
-  for (const RunSummary& summary : evaluation.runs) json["runs"].push_back(json_run(summary));
+  for (const RunSummary& summary : evaluation.runs) {
+    json["runs"].push_back(json_run(summary));
+    json["runs"].back()["record"] = record_of(evaluation, summary.plan);
+  }
   json["results"] = Json::array();
   for (const Result& result : evaluation.results) json["results"].push_back(json_result(result));
   return json.dump(1) + "\n";

@@ -97,6 +97,6 @@ def draw_all(results, directory, kept=None):
     for run in pictured:
         names += results.shown(lambda: snapshot_plot(results, run, directory)) or []
         names += results.shown(lambda: plan_plot(results, run, directory)) or []
-        if results.records.get(results.runs.get(run, {}).get("case", run)):
+        if results.records.get(results.record_of(run)):
             names += results.shown(lambda: states.state_plot(results, run, directory)) or []
     return names

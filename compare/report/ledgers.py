@@ -1,6 +1,7 @@
 """The energy of a run beside that of the beads: the same terms of both codes, from the series that each wrote.
 
-    python3 compare/report/ledgers.py --at T,T,... DIR DIR ...        a table, one column a run or record
+    python3 compare/report/ledgers.py --at T,T,... DIR DIR ...           a table, one column a run or record
+    python3 compare/report/ledgers.py --shares --at T,T,... DIR DIR ...  what each term takes of what is released between them
 
 The terms are those in which both count alike. What the continuum calls friction and collisions, and the work of its contact
 pressures, are for the beads one loss between grains, rough floor included; what planes and the gate's plate take is net of
@@ -21,7 +22,7 @@ from report import style  # noqa: E402
 from report.results import OF_READING, Damaged  # noqa: E402
 from report.style import plt  # noqa: E402
 
-# Term -> label, columns that add to it, columns that are taken from it. A name that ends in * stands for all that begin so.
+# As compare/input/shared_ledger.cpp has them. Term -> label, columns that add to it, columns that are taken from it. A name that ends in * stands for all that begin so.
 TERMS = {
     "released": ("potential energy released", (), ("energy_potential",)),
     "motion": ("kinetic, mean motion", ("energy_kinetic",), ()),
@@ -64,7 +65,7 @@ def read_ledger(directory):
 
 def ledgers_of(results, run):
     """Ours and those of the recorded seeds of the run's scene; nothing unless both are there."""
-    scene = results.runs.get(run, {}).get("case", run)
+    scene = results.record_of(run)
     ours = read_ledger(results.curves[run]["directory"])
     beads = [found for entry in results.records.get(scene, {}).values() if (found := read_ledger(entry["directory"]))]
     return (ours, beads) if ours and beads else None
@@ -100,15 +101,19 @@ def caption(run):
             "energy released, and what of it is in motion. Right: where it went.")
 
 
-def table(directories, times):
-    """Rows of text: a term a row, at each time the value of each directory [mJ]."""
+def ledgers_in(directories):
     read = {}
     for directory in directories:
         ledger = read_ledger(directory)
         if ledger is None:
             raise Damaged(Path(directory) / "series.csv", ValueError("it has no energy budget"))
         read[directory] = ledger
-    lines = []
+    return read
+
+
+def table(directories, times):
+    """Rows of text: a term a row, at each time the value of each directory [mJ]."""
+    read, lines = ledgers_in(directories), []
     for time in times:
         lines.append(f"t = {time:g} s")
         for term, (label, _, _) in TERMS.items():
@@ -117,13 +122,28 @@ def table(directories, times):
     return lines
 
 
+def shares(directories, times):
+    """Rows of text: a term a row, between each two times what it takes of the potential energy released there [%]."""
+    read, lines = ledgers_in(directories), []
+    for begin, end in zip(times, times[1:]):
+        lines.append(f"t = {begin:g} to {end:g} s")
+        for term, (label, _, _) in TERMS.items():
+            gained = [(changes[term], changes["released"], t) for t, changes in read.values()]
+            cells = [100 * (np.interp(end, t, curve) - np.interp(begin, t, curve)) / (np.interp(end, t, released) - np.interp(begin, t, released))
+                     for curve, released, t in gained]
+            lines.append(f"  {label:32}" + "".join(f"{cell:12.1f}" for cell in cells))
+    return lines
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description="The energy of runs and records beside each other, in mJ.")
+    parser.add_argument("--shares", action="store_true", help="in %% of the potential energy released between each two of the times")
     parser.add_argument("--at", metavar="T,T,...", required=True, help="times since the release [s]")
     parser.add_argument("directories", nargs="+", metavar="DIR", help="a run, or a record of reference/results")
     options = parser.parse_args(arguments)
     try:
-        print("\n".join(table(options.directories, [float(word) for word in options.at.split(",")])))
+        shown = shares if options.shares else table
+        print("\n".join(shown(options.directories, [float(word) for word in options.at.split(",")])))
     except ValueError as error:
         print(f"ledgers: {error}", file=sys.stderr)
         return 1

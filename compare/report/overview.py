@@ -56,7 +56,7 @@ def at_a_glance(results, plots):
         lines.append({
             "run": run, "case": case, "quantity": quantity, "errors": {}, "verdict": worst(rows),
             "agree": sum(row["verdict"] in ("agrees", "within band") for row in rows), "rows": len(rows),
-            "unexpected": any(row["unexpected"] for row in rows), "cost_ratio": cost_ratio(results, run, case),
+            "unexpected": any(row["unexpected"] for row in rows), "cost_ratio": cost_ratio(results, run),
             "plot": figures.plot_of(run, case, quantity, plots),
             "causes": sorted({cause_of(row) for row in rows if row["verdict"] == "expected failure"})})
         for kind in AGAINST:
@@ -68,11 +68,11 @@ def at_a_glance(results, plots):
     return sorted(lines, key=lambda line: (first[line["case"]], line["errors"]["DEM"] is None, line["run"] != line["case"], line["run"]))
 
 
-def cost_ratio(results, run, case):
-    """Core-seconds of a DEM-VOF record of the case over those of our run; nothing where one is not known."""
+def cost_ratio(results, run):
+    """Core-seconds of the DEM-VOF record of a run over its own; nothing where one is not known."""
     ours = results.runs.get(run, {}).get("numbers", {}).get("core_seconds")
     theirs = []
-    for record in results.records.get(case, {}).values():
+    for record in results.records.get(results.record_of(run), {}).values():
         try:
             theirs.append(json_of(Path(record["directory"]) / "record.json")["core_seconds"])
         except (OSError, ValueError, KeyError, TypeError):

@@ -61,7 +61,7 @@ def films(results):
     for run, entry in results.curves.items():
         if not results.shown(lambda: any(instants(entry))):
             continue  # where a run cannot be shown, its record is not asked
-        name, record = results.shown(lambda: record_of(results, results.runs.get(run, {}).get("case", run))) or (None, None)
+        name, record = results.shown(lambda: record_of(results, results.record_of(run))) or (None, None)
         moving = results.shown(lambda: film(entry, record, f"DEM-VOF ({name})"))
         if moving is None:
             continue

@@ -52,6 +52,11 @@ class Results:
         """The first row of that scene and metric, or None."""
         return next((row for row in self.rows if row["scene"] == scene and row["metric"] == metric), None)
 
+    def record_of(self, run):
+        """The record that a run is shown beside: the one that its rows are judged by, or that of its case."""
+        entry = self.runs.get(run, {})
+        return entry.get("record", entry.get("case", run))
+
     def curve(self, run, name):
         """Arrays x, y of a run's curve; None where there is none."""
         return arrays(self.curves.get(run, {}), name)

@@ -18,8 +18,7 @@ def snapshot_plot(results, run, directory):
     shots = list(snapshots(entry))
     if not shots:
         return []
-    case = results.runs.get(run, {}).get("case", run)
-    variant, recorded = recorded_shots(results, case, [shot[0] for shot in shots], scene)
+    variant, recorded = recorded_shots(results, results.record_of(run), [shot[0] for shot in shots], scene)
     if sum(shot is not None for shot in recorded) >= LEAST_COMMON:
         shots, recorded = zip(*[pair for pair in zip(shots, recorded) if pair[1]])
     else:

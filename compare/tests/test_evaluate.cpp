@@ -178,6 +178,26 @@ TEST_F(Evaluate, AStaleRecordIsNeverCompared) {
   EXPECT_EQ(evaluation.unexpected(), 1);
 }
 
+// Whichever run is compared with it: here one of another packing, and no row of the case as it was recorded.
+TEST_F(Evaluate, ARecordIsHeldAgainstItsOwnCase) {
+  const std::string recorded = scene_.reference_hash;
+  const std::vector<std::string> denser{"bed.solid_fraction=0.591"};
+  scene_ = load_scene(cases_directory() / "s1.toml", denser);
+  ASSERT_NE(scene_.reference_hash, recorded);
+  write_run("denser", series(0.1));
+  write_record("seed1", 0.1, recorded);
+  const Evaluation evaluation =
+      evaluate(parse_table("[[run]]\nid = \"denser\"\ncase = \"s1\"\nset = [\"bed.solid_fraction=0.591\"]\n"
+                           "[[check]]\nrun = \"denser\"\nfrequency = \"verify\"\n" +
+                               record_row,
+                           "t"),
+               Frequency::verify, paths_);
+  EXPECT_EQ(evaluation.results[0].judgement.verdict, Verdict::agrees);
+  const auto json =
+      nlohmann::json::parse(results_json(evaluation, Frequency::verify, "2026-01-01T00:00:00Z"));
+  EXPECT_EQ(json.at("runs").at(0).at("record"), "s1");
+}
+
 TEST_F(Evaluate, ResultFilesHoldTheRow) {
   write_run("s1", series(0.1));
   const Evaluation evaluation = evaluate_row(volume_row);

@@ -1,5 +1,8 @@
 """The energy of a run beside that of the beads: terms, table, plot, and files that are no budget."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -45,6 +48,26 @@ def test_the_table_has_each_term_of_each_directory(pair, capsys):
     text = capsys.readouterr().out
     assert text.splitlines()[0] == "t = 0.5 s"
     assert [line.split()[-2:] for line in text.splitlines() if "between grains" in line] == [["1125.000", "1000.000"], ["2250.000", "2000.000"]]
+
+
+def test_a_run_is_beside_the_record_that_judges_it_or_that_of_its_case(verify_directory):
+    loaded = results.load(verify_directory)
+    loaded.runs["of-beads"] = {"id": "of-beads", "case": "beads/s1-beads", "record": "s1"}
+    assert [loaded.record_of(run) for run in ("of-beads", "s1", "none")] == ["s1", "s1", "none"]
+
+
+def test_shares_are_of_what_was_released_in_between(pair, capsys):
+    assert ledgers.main(["--shares", "--at", "0,0.5,1", *map(str, pair)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line for line in lines if line.startswith("t")] == ["t = 0 to 0.5 s", "t = 0.5 to 1 s"]
+    assert [line.split()[-2:] for line in lines if "lost to drag" in line] == [["14.3", "21.4"]] * 2
+
+
+def test_the_checks_count_the_same_terms():
+    source = (Path(ledgers.__file__).parents[1] / "input/shared_ledger.cpp").read_text()
+    terms = re.findall(r'\{"(\w+)",\s*\{([^}]*)\},\s*\{([^}]*)\}\}', source)
+    named = {name: tuple(tuple(re.findall(r'"([^"]+)"', columns)) for columns in lists) for name, *lists in terms}
+    assert named == {name: term[1:] for name, term in ledgers.TERMS.items() if name != "open"}
 
 
 def test_a_series_without_a_budget_is_refused(tmp_path, capsys):

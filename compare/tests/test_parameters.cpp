@@ -11,8 +11,8 @@ namespace granvof::compare {
 namespace {
 
 TEST(Parameters, WhatIsNeededIsInTheTable) {
-  for (const auto needed :
-       {&Needs::window, &Needs::at, &Needs::quiet, &Needs::level, &Needs::published, &Needs::against}) {
+  for (const auto needed : {&Needs::window, &Needs::at, &Needs::quiet, &Needs::level, &Needs::published,
+                            &Needs::against, &Needs::term}) {
     Needs needs;
     needs.*needed = true;
     EXPECT_FALSE(is_complete(needs, Parameters{}));
@@ -40,7 +40,8 @@ TEST(Parameters, TellRowsOfAMetricApart) {
   given.column = "front";
   EXPECT_EQ(labelled("run_out", given), "run_out@10-front");
   given.against = "s1-plain";
-  EXPECT_EQ(labelled("run_out", given), "run_out@10-s1-plain-front");
+  given.term = "drag";
+  EXPECT_EQ(labelled("run_out", given), "run_out@10-s1-plain-front-drag");
 }
 
 TEST(Metrics, OnlyWhatSomebodyPaysForIsACost) {

@@ -19,6 +19,7 @@ namespace granvof::case_file {
 namespace {
 
 constexpr int deepest_base = 8;
+constexpr int most_bases = 32;  // of one case, those of its bases included: lists of lists would never end
 constexpr std::uintmax_t largest_file = 1 << 20;  // [bytes]; the longest case that is shipped has 5e3
 constexpr std::size_t longest_value = 80;         // in a message
 constexpr std::size_t longest_description = 200;
@@ -181,31 +182,60 @@ std::string read_file(const std::filesystem::path& file) {
   return content;
 }
 
-// Merges a file's bases, outermost first, then the file itself; returns the next free layer.
-int merge_layers(CaseText& text, toml::table table, const std::string& label,
-                 const std::filesystem::path& directory, int depth) {
-  int layer = 0;
-  if (const toml::node* base = table.get("base")) {
-    const toml::source_position at = base->source().begin;
-    const auto refuse = [&](const std::string& allowed) {
-      throw CaseError(fmt::format("{}: base: got {}, allowed: {}", Place{label, at.line, at.column}.text(),
-                                  shown(*base, value_of(*base)), allowed));
-    };
-    if (!base->is_string()) refuse("a file name in quotes");
-    if (depth == deepest_base)
-      refuse(fmt::format("a chain of at most {} cases, without a circle", deepest_base));
-    const std::filesystem::path file = (directory / *base->value<std::string>()).lexically_normal();
-    std::error_code unknown;
-    if (!std::filesystem::is_regular_file(file, unknown)) {
-      refuse(fmt::format("a case file; there is no {}", printable(file.string(), longest_description)));
-    }
-    layer = merge_layers(text, parse(read_file(file), file.string()), file.string(), file.parent_path(),
-                         depth + 1);
-    table.erase("base");
-  }
-  Merge(text, label, true, layer).table(table, "");
-  return layer + 1;
+// The names that `base` gives: one text, or a list of texts; nothing for anything else.
+std::optional<std::vector<std::string>> names_of(const toml::node& base) {
+  if (const auto name = base.value_exact<std::string>()) return std::vector{*name};
+  const auto* list = base.as_array();
+  if (!list || list->empty() || !list->is_homogeneous(toml::node_type::string)) return std::nullopt;
+  std::vector<std::string> names;
+  for (const toml::node& name : *list) names.push_back(*name.value<std::string>());
+  return names;
 }
+
+// A file on top of its bases, and all that they are based on.
+class Layers {
+ public:
+  explicit Layers(CaseText& text) : text_(text) {}
+
+  // Merges a file's bases in their order, each after its own, then the file itself. Returns the next free
+  // layer.
+  int merge(toml::table table, const std::string& label, const std::filesystem::path& directory,
+            int depth = 0) {
+    if (const toml::node* base = table.get("base")) {
+      bases_of(*base, label, directory, depth);
+      table.erase("base");
+    }
+    Merge(text_, label, true, next_).table(table, "");
+    return ++next_;
+  }
+
+ private:
+  CaseText& text_;
+  int next_ = 0, files_ = 0;
+
+  void bases_of(const toml::node& base, const std::string& label, const std::filesystem::path& directory,
+                int depth) {
+    const auto refuse = [&](const toml::node& at, const std::string& allowed) {
+      const toml::source_position begin = at.source().begin;
+      throw CaseError(fmt::format("{}: base: got {}, allowed: {}",
+                                  Place{label, begin.line, begin.column}.text(), shown(at, value_of(at)),
+                                  allowed));
+    };
+    const auto names = names_of(base);
+    if (!names) refuse(base, "a file name in quotes, or a list of such");
+    if (depth == deepest_base)
+      refuse(base, fmt::format("a chain of at most {} cases, without a circle", deepest_base));
+    for (std::size_t n = 0; n < names->size(); ++n) {
+      const toml::node& at = base.is_array() ? *base.as_array()->get(n) : base;
+      if (++files_ > most_bases) refuse(at, fmt::format("at most {} files in all", most_bases));
+      const std::filesystem::path file = (directory / (*names)[n]).lexically_normal();
+      std::error_code unknown;
+      if (!std::filesystem::is_regular_file(file, unknown))
+        refuse(at, fmt::format("a case file; there is no {}", printable(file.string(), longest_description)));
+      merge(parse(read_file(file), file.string()), file.string(), file.parent_path(), depth + 1);
+    }
+  }
+};
 
 bool is_path(std::string_view text) {
   return !text.empty() && text.front() != '.' && text.back() != '.' &&
@@ -246,7 +276,7 @@ CaseText read(toml::table table, const std::string& label, const std::filesystem
               std::span<const std::string> overrides) {
   CaseText text;
   text.file = label;
-  const int layer = merge_layers(text, std::move(table), label, directory, 0);
+  const int layer = Layers(text).merge(std::move(table), label, directory);
   std::string faults;  // of all overrides: one error names them
   for (const std::string& override_text : overrides) {
     try {

@@ -45,9 +45,10 @@ struct CaseText {
   Place place_of(const std::string& table) const;
 };
 
-// An optional table that a later layer sets to false ("gate = false") is dropped. A later layer replaces a
-// key and what lies below it ("walls.top.fluid" by "walls.top"), not what lies above it: "walls.top" stays
-// beside a later "walls.top.fluid". Only regular files are read. Throws CaseError.
+// `base` names a case that this one takes over, or a list of such, each over those before it; names are
+// relative to the file. An optional table that a later layer sets to false ("gate = false") is dropped. A
+// later layer replaces a key and what lies below it ("walls.top.fluid" by "walls.top"), not what lies above
+// it: "walls.top" stays beside a later "walls.top.fluid". Only regular files are read. Throws CaseError.
 CaseText read_case(const std::filesystem::path& file, std::span<const std::string> overrides);
 CaseText read_case_text(std::string_view text, const std::string& label,
                         std::span<const std::string> overrides);

@@ -17,12 +17,29 @@ double bottom_of(const Completion& c) {
   if (place == BedPlace::on_water) return *c.d.level;
   const double ratio = c.s.solid.density / c.s.liquid.density;
   if (ratio >= 1.0) c.refuse("bed.y", "\"floating\" only where solid.density is below liquid.density");
-  const double bottom = *c.d.level - ratio * c.d.bed.height;
+  const double immersed = ratio * c.d.bed.filled.value_or(c.d.bed.height);
+  const double bottom = *c.d.level - immersed;
   if (bottom < 0.0) {
-    c.refuse("bed.y",
-             fmt::format("liquid.level at least {:.9g} m for this bed to float", ratio * c.d.bed.height));
+    c.refuse("bed.y", fmt::format("liquid.level at least {:.9g} m for this bed to float", immersed));
   }
   return bottom;
+}
+
+double width_of(const Completion& c) {
+  return c.d.bed.width.value_or(c.s.tank[2] - c.d.bed.z.value_or(0.0));
+}
+
+// The height that a stated volume of solid fills.
+void fill(const Completion& c) {
+  BedInput& bed = c.d.bed;
+  if (bed.slope != 90.0) c.refuse("bed.solid_volume", "only with an upright front face (bed.slope = 90)");
+  const double per_height = bed.solid_fraction * bed.length * width_of(c);
+  const double height = *bed.solid_volume / per_height;
+  if (!(height <= bed.height * (1.0 + roundoff))) {
+    c.refuse("bed.solid_volume", fmt::format("at most {:.9g} m3, what the bed holds at bed.solid_fraction",
+                                             per_height * bed.height));
+  }
+  bed.filled = height;
 }
 
 void place(const Completion& c) {
@@ -30,11 +47,11 @@ void place(const Completion& c) {
   c.only_in_3d("bed.z");
   c.only_in_3d("bed.width");
   if (!c.flat()) bed.z = bed.z.value_or(0.0);
-  if (!c.flat()) bed.width = bed.width.value_or(c.s.tank[2] - *bed.z);
+  if (!c.flat()) bed.width = width_of(c);
   const double y = bottom_of(c);
   bed.y = y;
   const double z = bed.z.value_or(0.0);
-  const Box box{{bed.x, y, z}, {bed.x + bed.length, y + bed.height, z + bed.width.value_or(c.s.tank[2])}};
+  const Box box{{bed.x, y, z}, {bed.x + bed.length, y + bed.filled.value_or(bed.height), z + width_of(c)}};
   const std::array<std::string, 3> extents{"bed.length", "bed.height", "bed.width"};
   for (int axis = 0; axis < 3; ++axis) {
     if (c.outside(box.lower[axis], box.upper[axis], axis) ||
@@ -44,7 +61,7 @@ void place(const Completion& c) {
                            "xyz"[axis], box.lower[axis], c.s.tank[axis]));
     }
   }
-  c.s.bed = Bed{box, bed.solid_fraction, bed.slope, bed.colour, bed.colour_size.value_or(0.0)};
+  c.s.bed = Bed{box, bed.solid_fraction, bed.slope, bed.colour, bed.colour_size.value_or(0.0), bed.height};
 }
 
 void bands(const Completion& c) {
@@ -101,6 +118,11 @@ void complete_bed(Completion& c) {
                fmt::format("a number in (0, {}], up to contact.solid_fraction_max", highest));
     }
   });
+  if (c.d.bed.solid_volume) {
+    c.rule({"tank", "bed.solid_volume", "bed.solid_fraction", "bed.slope", "bed.z", "bed.length",
+            "bed.height", "bed.width"},
+           [&] { fill(c); });
+  }
   c.rule({"scene.dimensions", "tank", "liquid.level", "liquid.density", "solid.density", "bed.x", "bed.y",
           "bed.z", "bed.length", "bed.height", "bed.width"},
          [&] { place(c); });

@@ -35,6 +35,7 @@ struct BedInput {
   double slope = Bed{}.slope;
   std::variant<double, BedPlace> y = BedPlace::floor;
   std::optional<double> z, width;
+  std::optional<double> solid_volume, filled;  // filled: the height that solid_volume fills [m]
   ColourPattern colour = ColourPattern::uniform;
   std::optional<double> colour_size;
 };

@@ -76,6 +76,10 @@ std::vector<Key> bed_keys() {
       required(key("bed.height", "m", positive, MEMBER(bed.height), "h0.")),
       required(key("bed.solid_fraction", "-", part, MEMBER(bed.solid_fraction),
                    "Initial packing; at most contact.solid_fraction_max.")),
+      otherwise(key("bed.solid_volume", "m3", positive, MEMBER(bed.solid_volume),
+                    "Of all grains, in 2D for tank.depth: fills the box at solid_fraction up to a lower top; "
+                    "h0 stays height."),
+                "what the box holds"),
       number_or_word(
           "bed.y", "m", not_negative, places, MEMBER(bed.y),
           "Bottom of the bed: on the floor, at the liquid's level, or so deep that the immersed share is "

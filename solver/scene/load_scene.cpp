@@ -62,7 +62,11 @@ std::string keys_reference() {
   page +=
       "\nAt the top level `base = \"other.toml\"` takes over another case, table by table and key by key; "
       "what stands "
-      "in the file then replaces it. There, an optional table set to false (`gate = false`) is dropped.\n";
+      "in the file then replaces it. A list, `base = [\"other.toml\", \"beads.toml\"]`, takes over one after "
+      "the "
+      "other; one of them may hold a few keys alone, such as a material. An optional table set to false "
+      "(`gate = "
+      "false`) is dropped.\n";
   return page;
 }
 

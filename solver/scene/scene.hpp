@@ -92,7 +92,8 @@ struct Bed {
   double solid_fraction = 0.0;  // initial packing [-], in (0, f_s,max]
   double slope = 90.0;          // of the front face, from the horizontal [degrees], in (0, 90]; 90: a box
   ColourPattern colour = ColourPattern::uniform;
-  double colour_size = 0.0;  // height of a layer, width of a column [m], > 0 unless uniform
+  double colour_size = 0.0;     // height of a layer, width of a column [m], > 0 unless uniform
+  double nominal_height = 0.0;  // h0 [m], > 0: of the box, or more where less solid fills it
   bool operator==(const Bed&) const = default;
 };
 

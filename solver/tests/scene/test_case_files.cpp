@@ -54,6 +54,45 @@ TEST_F(CaseFiles, DeriveFromABase) {
   EXPECT_EQ(scene.resolved.find("base"), std::string::npos);
 }
 
+// A material, which is no case, over one that is, and the file's own over both.
+TEST_F(CaseFiles, DeriveFromSeveralBasesInTheirOrder) {
+  write("material.toml", "[solid]\nfriction = 0.3\n[contact]\nsolid_fraction_min = 0.58\n");
+  const std::string own =
+      "[scene]\nname = \"last\"\n[bed]\nsolid_fraction = 0.585\n[contact]\nsolid_fraction_max = 0.64\n";
+  const Scene scene = load_scene(write("last.toml", "base = [\"small.toml\", \"material.toml\"]\n" + own));
+  EXPECT_EQ(scene.solid.friction, 0.3);
+  EXPECT_EQ(scene.solid.density, 2500.0);
+  EXPECT_EQ(scene.contact.solid_fraction_min, 0.58);
+  EXPECT_EQ(scene.contact.solid_fraction_max, 0.64);
+  EXPECT_EQ(
+      load_scene(write("last.toml", "base = [\"material.toml\", \"small.toml\"]\n" + own)).solid.friction,
+      0.4);
+}
+
+// A preset of the case holds over that of its first base, whatever the bases between say of other keys.
+TEST_F(CaseFiles, APresetOfALaterBaseHolds) {
+  write("model.toml", "[model]\npreset = \"sourced\"\n");
+  const auto file = write("last.toml", "base = [\"small.toml\", \"model.toml\"]\n[scene]\nname = \"last\"\n");
+  EXPECT_TRUE(load_scene(file).model.agitation_drag);
+}
+
+TEST_F(CaseFiles, RefuseListsThatAreNoneOrNeverEnd) {
+  EXPECT_EQ(refused(write("empty.toml", "base = []\n")),
+            path("empty.toml") + ":1:8: base: got [], allowed: a file name in quotes, or a list of such");
+  EXPECT_NE(refused(write("mixed.toml", "base = [\"small.toml\", 3]\n")).find("mixed.toml:1:8: base: got"),
+            std::string::npos);
+  EXPECT_NE(refused(write("lost.toml", "base = [\"small.toml\", \"none.toml\"]\n"))
+                .find("lost.toml:1:23: base: got \"none.toml\", allowed: a case file; there is no"),
+            std::string::npos);
+  std::string before = "small.toml";
+  for (int n = 0; n < 7; ++n) {  // each takes the one before it thrice
+    const std::string name = fmt::format("three{}.toml", n);
+    write(name, fmt::format("base = [\"{0}\", \"{0}\", \"{0}\"]\n", before));
+    before = name;
+  }
+  EXPECT_NE(refused(path(before)).find("allowed: at most 32 files in all"), std::string::npos);
+}
+
 TEST_F(CaseFiles, OverridesComeAfterTheLastFile) {
   const auto file =
       write("last.toml", "base = \"small.toml\"\n[scene]\nname = \"last\"\n[solid]\nfriction = 0.3\n");
@@ -144,6 +183,26 @@ TEST(ShippedCases, AdvisedOnesLoad) {
     EXPECT_NE(scene.resolved, load_scene(scene.file.parent_path() / ".." /
                                          (scene.name.substr(0, scene.name.rfind("-advised")) + ".toml"))
                                   .resolved);
+    ++count;
+  }
+  EXPECT_GE(count, 1);
+}
+
+// The beads' material over the paper's cases: same scales and place, less height of what fills it.
+TEST(ShippedCases, OfBeadsHaveTheirMaterialAndTheScalesOfTheirCase) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(cases_directory() / "beads")) {
+    const Scene scene = load_scene(entry.path());
+    EXPECT_EQ(scene.name, entry.path().stem().string());
+    const std::string of = scene.name.substr(0, scene.name.rfind("-beads"));
+    const Scene plain = load_scene(cases_directory() / (of + ".toml"));
+    EXPECT_EQ(scene.times, plain.times);
+    EXPECT_EQ(scene.bed->nominal_height, plain.bed->nominal_height);
+    EXPECT_EQ(scene.bed->box.upper[0], plain.bed->box.upper[0]);
+    EXPECT_LT(scene.bed->box.upper[1], plain.bed->box.upper[1]);
+    EXPECT_LT(scene.solid.friction, plain.solid.friction);
+    EXPECT_GT(scene.bed->solid_fraction, scene.contact.solid_fraction_min);  // it bears its weight
+    EXPECT_FALSE(scene.reference);  // its friction is the bulk's, not a bead's
     ++count;
   }
   EXPECT_GE(count, 1);

@@ -89,6 +89,26 @@ TEST(LoadScene, PlacesTheBed) {
   EXPECT_DOUBLE_EQ(floating.bed->box.lower[1], 0.07 - 0.6 * 0.05);
 }
 
+// 0.1 m x 1 m x 0.57 of grains a metre of height.
+TEST(LoadScene, ABedOfAGivenVolumeOfSolidIsAsHighAsThatFills) {
+  const Scene scene = small({"bed.solid_volume=0.002565"});
+  EXPECT_DOUBLE_EQ(scene.bed->box.upper[1], 0.045);
+  EXPECT_EQ(scene.bed->nominal_height, 0.05);
+  EXPECT_EQ(scene.times.unit, small().times.unit);
+  EXPECT_EQ(small().bed->nominal_height, 0.05);
+  EXPECT_EQ(small({"bed.solid_volume=0.00285"}).bed->box, small().bed->box);  // all that the box holds
+  EXPECT_DOUBLE_EQ(
+      small({"bed.solid_volume=0.002565", "bed.y=floating", "solid.density=600"}).bed->box.lower[1],
+      0.07 - 0.6 * 0.045);
+  EXPECT_EQ(refusal([] { small({"bed.solid_volume=0.0029"}); }),
+            "--set: bed.solid_volume: got 0.0029, allowed: at most 0.00285 m3, what the bed holds at "
+            "bed.solid_fraction");
+  EXPECT_NE(refusal([] {
+              small({"bed.solid_volume=0.002", "bed.slope=60"});
+            }).find("upright front face"),
+            std::string::npos);
+}
+
 TEST(LoadScene, ReadsWalls) {
   const Scene scene = small({"walls.all=slip", "walls.left=no-slip",
                              "walls.bottom={solid=\"coulomb\", solid_friction=0.2, velocity=[0.1, 0]}"});

@@ -198,13 +198,14 @@ TEST(Plausibility, TakesWhatIsLeftOutForMeant) {
   EXPECT_EQ(keys_of(plausibility(small({"liquid=false"}))), std::vector<std::string>{});
 }
 
-// All that is shipped is meant, but for two beds that are known to spring, two coarse-grained sections whose
-// grains are larger than their cells, and a grid of 5 mm that has no face where the gate of s1 stands.
+// All that is shipped is meant (a material is no case), but for two beds that are known to spring, two
+// coarse-grained sections whose grains are larger than their cells, and a grid of 5 mm that has no face where
+// the gate of s1 stands.
 TEST(Plausibility, IsSilentOnShippedCases) {
   namespace fs = std::filesystem;
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(cases_directory())) {
-    if (entry.path().extension() != ".toml") continue;
+    if (entry.path().extension() != ".toml" || entry.path().parent_path().filename() == "materials") continue;
     const Scene scene = load_scene(entry.path());
     std::vector<std::string> expected;
     if (scene.name == "s1-dense" || scene.name == "rondon-dense") expected = {"bed.solid_fraction"};

@@ -1,0 +1,53 @@
+"""Cases of the beads' own material: as much solid as their records, and numbers that are those of the tests they name."""
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "reference"), str(ROOT / "solver/python")]
+
+import recorder  # noqa: E402
+from granvof_files import toml_of  # noqa: E402
+
+BEADS = sorted((ROOT / "cases/beads").glob("*-beads.toml"))
+MATERIAL = ROOT / "cases/materials/glass-beads-0.8mm.toml"
+
+
+def records_of(case):
+    return sorted((recorder.RESULTS / case.stem.removesuffix("-beads")).glob("seed*"))
+
+
+def mean(numbers):
+    return sum(numbers) / len(numbers)
+
+
+def first_solid_volume(record):
+    with open(record / "series.csv", newline="") as file:
+        return float(next(csv.DictReader(file))["solid_volume [m3]"])
+
+
+def monitors(record):
+    return json.loads((record / "record.json").read_text())["monitors"]
+
+
+def test_there_is_one_of_each_collapse_that_is_held_to_beads():
+    assert [case.stem for case in BEADS] == ["canary-beads", "canary-dry-beads", "s1-beads", "s2-beads"]
+
+
+@pytest.mark.parametrize("case", BEADS, ids=lambda case: case.stem)
+def test_a_case_starts_with_as_much_solid_as_its_record_and_as_densely_packed(case):
+    bed, records = toml_of(case)["bed"], records_of(case)
+    assert len(records) == 2
+    assert bed["solid_volume"] == pytest.approx(mean([first_solid_volume(record) for record in records]), rel=1e-4)
+    assert bed["solid_fraction"] == pytest.approx(mean([monitors(record)["released_packing"] for record in records]), abs=1e-4)
+
+
+def test_the_material_is_what_the_chute_measured():
+    material, chute = toml_of(MATERIAL), monitors(recorder.RESULTS / "bulk-friction/s1/seed1")
+    stated = {"mu_s": material["solid"]["friction"], "mu_2": material["contact"]["fast_friction"],
+              "I_0": material["contact"]["inertial_number"]}
+    assert stated == {name: round(chute[name], 3) for name in stated}
