@@ -68,6 +68,7 @@ const std::map<std::string, Sets, std::less<>> needs{
     {"contact.critical_solid_fraction", shear},
     {"contact.dilatancy_slope", shear},
     {"contact.dilatancy_rate", shear},
+    {"bed.solid_volume", {"bed.solid_volume=0.002565"}},
     {"bed.colour_size", {"bed.colour=layers", "bed.colour_size=0.01"}},
     {"time.hold", {"time.hold=0.1"}},
     {"output.field_interval", {"output.field_interval=1"}},
