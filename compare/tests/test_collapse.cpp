@@ -102,6 +102,10 @@ TEST(PowerLaw, EndsAtTheFarWall) {
   EXPECT_NEAR(fit->exponent, 0.7, 1e-12);
   EXPECT_LT(power_law(curve, {0.5, 5.0})->exponent, 0.68);
   EXPECT_EQ(before_wall(curve, 2.0, 0.0025).size(), curve.size());
+  Curve in_the_last_cell;
+  in_the_last_cell.time = {0.0, 1.0};
+  in_the_last_cell.value = {0.5, 0.799};
+  EXPECT_EQ(before_wall(in_the_last_cell, 0.8, 0.0025).size(), 1U);
 }
 
 BedProfile profile_of(double top, double base, int columns) {

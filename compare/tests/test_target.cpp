@@ -99,6 +99,7 @@ TEST_F(Records, HalfTheSpreadOfSeedsWhereItIsLarger) {
   write("bands.json", bands);
   const Target target = dem_target(parse_quantity("front", std::nullopt), scene_, root_, "canary");
   EXPECT_GT(target.floor, 0.12);
+  EXPECT_LT(target.floor, 0.14);
   EXPECT_NE(target.source.find("2 records"), std::string::npos);
 }
 

@@ -1,0 +1,37 @@
+// Reference values from theory, against numbers worked out by hand from the shipped scenes.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "compare/checks/theory.hpp"
+#include "solver/scene/load_scene.hpp"
+#include "solver/tests/cases_directory.hpp"
+
+namespace granvof::compare {
+namespace {
+
+double value_of(const char* formula, const char* scene) {
+  Run run;
+  run.scene = load_scene(cases_directory() / (std::string(scene) + ".toml"), {});
+  const FormulaEntry* entry = find_formula(formula);
+  return entry == nullptr ? -1.0 : entry->function(run, {}).value_or(-1.0);
+}
+
+// Mean speed 0.02 m/s between plates.
+TEST(Theory, SpeedInAChannel) {
+  EXPECT_NEAR(value_of("channel_speed", "channel"), 0.03, 1e-12);
+}
+
+// rho g sin(10 deg) / mu = 1533.13 1/(m s); depth 0.01 m, uppermost centres at 0.00975 m: h y - y^2/2 =
+// 4.996875e-5 m2.
+TEST(Theory, SpeedOfAFilm) {
+  EXPECT_NEAR(value_of("film_speed", "inclined-film"), 0.0766087, 1e-6);
+}
+
+// H = 0.1 m * 0.5 / 0.57; density ratio 0.2.
+TEST(Theory, PeriodOfAFloatingBed) {
+  EXPECT_NEAR(value_of("floating_period", "float-full-r02"), 0.265710, 1e-6);
+}
+
+}  // namespace
+}  // namespace granvof::compare
