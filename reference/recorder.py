@@ -20,7 +20,7 @@ import h5py
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "solver/python"))
 
-from granvof_files import fields_of, is_there, json_of, no_program, required, toml_of, write_whole  # noqa: E402
+from granvof_files import fields_of, is_there, json_in, json_of, no_program, required, toml_of, write_whole  # noqa: E402
 
 RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
@@ -90,7 +90,7 @@ def facts_of(path):
     """Content of a run.json or record.json without its seal. RecordError where it is damaged."""
     try:
         text = required(path).read_text(encoding="utf-8")
-        facts = json.loads(text)
+        facts = json_in(text)
     except (OSError, ValueError) as error:
         raise RecordError(f"{path} cannot be read: {one_line(error)}") from error
     if not isinstance(facts, dict):

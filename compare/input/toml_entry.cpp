@@ -6,6 +6,7 @@
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/scene/key_parts.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -23,6 +24,9 @@ toml::table parsed(Parse parse, std::string_view name) {
 }  // namespace
 
 toml::table parse_toml(std::string_view text, std::string_view name) {
+  if (const auto at = case_file::overlong_key(text))
+    throw TableError(fmt::format("{}:{}:{}: a key of more than {} parts", name, at->line, at->column,
+                                 case_file::most_key_parts));
   return parsed([&] { return toml::parse(text, name); }, name);
 }
 

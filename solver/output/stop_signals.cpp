@@ -55,8 +55,7 @@ int stop_signal() {
   return stop_requested;
 }
 
-std::string stop_reason() {
-  const int number = stop_signal();
+std::string stop_reason(int number) {
   if (number == 0) return "";
   const auto* found = std::find_if(stopping_signals.begin(), stopping_signals.end(),
                                    [=](const NamedSignal& s) { return s.number == number; });

@@ -17,8 +17,8 @@ void listen_to_stop_signals();
 
 // The number of the last one that has come since; 0 where none has.
 int stop_signal();
-// "stopped by a signal (SIGTERM)" where one has come since; empty where none has.
-std::string stop_reason();
+// "stopped by a signal (SIGTERM)" of a number that stop_signal() gave; empty of 0.
+std::string stop_reason(int number = stop_signal());
 
 // Thrown out of long work that has no steps of its own to end at.
 class StopRequested : public std::runtime_error {

@@ -4,6 +4,7 @@ device may have no end. Writes results whole or not at all."""
 import contextlib
 import json
 import os
+import re
 import stat
 import tomllib
 from pathlib import Path
@@ -44,11 +45,31 @@ def no_program(path, made_by="`make build` builds it"):
 
 def json_of(path):
     """What a JSON file holds; raises as required() and the parser do."""
-    return json.loads(required(Path(path)).read_text(encoding="utf-8"))
+    return json_in(required(Path(path)).read_text(encoding="utf-8"))
+
+
+def json_in(text):
+    """ValueError where it is none, or nested deeper than the parser can follow."""
+    try:
+        return json.loads(text)
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
+
+
+MOST_KEY_PARTS = 64  # as solver/scene/key_parts.hpp
+NO_KEY = re.compile(r"""\"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#.*""")  # texts in quotes, comments
+KEYS = re.compile(r"[\w. \t-]+")
 
 
 def toml_of(path):
-    return tomllib.loads(required(Path(path)).read_text(encoding="utf-8"))
+    """What a TOML file holds; raises as required() and the parser do."""
+    text = required(Path(path)).read_text(encoding="utf-8")
+    if any(run.group().count(".") >= MOST_KEY_PARTS for run in KEYS.finditer(NO_KEY.sub("_", text))):
+        raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts")
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
 
 
 def write_whole(path, content):

@@ -308,9 +308,9 @@ std::optional<TimeLoop::Ending> Run::show_progress() {
 }
 
 std::optional<TimeLoop::Ending> Run::asked_to_stop() const {
-  if (const std::string reason = stop_reason(); !reason.empty())
-    return Ending{
-        {ExitState::stopped, reason, stop_signal() == SIGXCPU ? ExitKind::cpu_limit : ExitKind::signal}};
+  if (const int signal = loop_.stop_signal_of_any(); signal != 0)
+    return Ending{{ExitState::stopped, stop_reason(signal),
+                   signal == SIGXCPU ? ExitKind::cpu_limit : ExitKind::signal}};
   if (options_.stop_after && seconds_since(launched_) >= *options_.stop_after)
     return Ending{{ExitState::stopped,
                    fmt::format("stopped after {} (--stop-after)", duration_text(*options_.stop_after)),

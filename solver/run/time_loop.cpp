@@ -7,6 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "solver/output/stop_signals.hpp"
 #include "solver/run/initial_state.hpp"
 
 namespace granvof {
@@ -83,6 +84,9 @@ int TimeLoop::follow() {
       case Order::Kind::account:
         sum_of_core_seconds();
         break;
+      case Order::Kind::agree:
+        highest_stop_signal();
+        break;
       case Order::Kind::end:
         return order.code;
     }
@@ -103,6 +107,18 @@ double TimeLoop::core_seconds_of_others() const {
 double TimeLoop::sum_of_core_seconds() const {
   const bool lowest = grid_.cells.communicator->rank() == 0;
   return of_all(grid_.cells, lowest ? 0.0 : static_cast<double>(std::clock() - begun_) / CLOCKS_PER_SEC);
+}
+
+int TimeLoop::stop_signal_of_any() const {
+  if (!tank_.is_cut()) return stop_signal();
+  tell({Order::Kind::agree});
+  return highest_stop_signal();
+}
+
+int TimeLoop::highest_stop_signal() const {
+  double number = stop_signal();
+  grid_.cells.communicator->max(std::span(&number, 1));
+  return static_cast<int>(number);
 }
 
 const State& TimeLoop::whole_now() {

@@ -59,6 +59,8 @@ class TimeLoop {
   void dismiss(int code) const;
   // CPU time of the other processes in the time loop up to now [s].
   double core_seconds_of_others() const;
+  // Of a signal that asked any of the processes to end (stop_signals.hpp); 0 where none was.
+  int stop_signal_of_any() const;
 
   // Of the whole tank: where it is not cut, what now() and before() are; else collected by the call.
   const Grid& whole_grid() const { return tank_.grid(); }
@@ -83,7 +85,7 @@ class TimeLoop {
  private:
   // What the leading process tells the others to do.
   struct Order {
-    enum class Kind { advance, step_back, restore, collect_now, collect_before, account, end } kind;
+    enum class Kind { advance, step_back, restore, collect_now, collect_before, account, agree, end } kind;
     double longest = 0.0;  // of advance
     int code = 0;          // of end
   };
@@ -93,6 +95,7 @@ class TimeLoop {
   void forget_step();
   void restore_from_the_lowest();
   double sum_of_core_seconds() const;
+  int highest_stop_signal() const;
 
   const Scene& scene_;
   Grid grid_;

@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "solver/scene/case_error.hpp"
+#include "solver/scene/key_parts.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/toml_text.hpp"
@@ -147,6 +148,9 @@ class Merge {
 };
 
 toml::table parse(std::string_view text, const std::string& label) {
+  if (const auto at = overlong_key(text))
+    throw CaseError(fmt::format("{}: a key of more than {} parts", Place{label, at->line, at->column}.text(),
+                                most_key_parts));
   try {
     return toml::parse(text, label);
   } catch (const toml::parse_error& error) {
@@ -210,6 +214,7 @@ bool is_path(std::string_view text) {
 }
 
 std::optional<toml::table> try_parse(const std::string& text) {
+  if (overlong_key(text)) return std::nullopt;
   try {
     return toml::parse(text);
   } catch (const toml::parse_error&) {

@@ -166,4 +166,20 @@ TEST_F(Mpirun, EndsWithOneOfItsProcessesAndGoesOnFromItsCheckpoint) {
   EXPECT_EQ(resumed.code, 3) << resumed.said;
 }
 
+// A scheduler's warning, or the limit of its CPU time, may reach any of them, and alone.
+TEST_F(Mpirun, EndsWithACheckpointAtASignalToOneOfItsProcesses) {
+  for (const std::string signal : {"USR1", "XCPU"}) {
+    const std::string out = "told_" + signal;
+    const std::string told = "sh -c \"if [ \\$OMPI_COMM_WORLD_RANK = 1 ]; then (while [ ! -e " + out +
+                             "/checkpoint.h5 ]; do sleep 0.1; done; kill -" + signal +
+                             " \\$\\$) & fi; exec '" GRANVOF_PROGRAM "' " +
+                             column(50.0, "--out " + out + " --set output.checkpoint_interval=0.2") + "\"";
+    const Outcome outcome = shell("timeout 120 " + mpirun() + "-np 2 " + told);
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_NE(outcome.said.find("stopped by a signal (SIG" + signal + ")"), std::string::npos)
+        << outcome.said;
+    EXPECT_NE(text(out + "/run.json").find("\"state\": \"stopped\""), std::string::npos);
+  }
+}
+
 }  // namespace
