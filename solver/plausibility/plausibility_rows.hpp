@@ -108,8 +108,13 @@ inline bool has_grains(const Scene& s) {
   return s.bed || std::ranges::any_of(s.sides, is_inlet_of_grains);
 }
 
+inline double smallest_cell(const Scene& s) {
+  return *std::min_element(s.grid.spacing.begin(), s.grid.spacing.begin() + s.dimensions);
+}
+
 // --- ranges that several tables share --------------------------------------------------------------------
 
+inline constexpr double off_a_face = 1e-6;  // from how much on, in cells: rounding of lengths in a case file
 inline constexpr Usual of_grains{1e-5, 0.1};  // their diameter [m]
 // A diameter that is no grain's says nothing about cells, bed or steps.
 inline bool is_grain(const Scene& s) {
@@ -131,6 +136,7 @@ inline constexpr double longest_step = 0.2;
 double time_of_change(const Scene& s);
 
 // Of [contact] and of [reference]; the others stand with the table.
+std::vector<Row> bed_rows();
 std::vector<Row> contact_rows();
 std::vector<Row> reference_rows();
 
