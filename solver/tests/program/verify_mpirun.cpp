@@ -153,7 +153,7 @@ TEST_F(Mpirun, RefusesProcessesThatReadDifferentCases) {
 
 TEST_F(Mpirun, EndsWithOneOfItsProcessesAndGoesOnFromItsCheckpoint) {
   const std::string run =
-      "'" GRANVOF_PROGRAM "' " + column(20.0, "--out killed --set output.checkpoint_interval=0.2");
+      "'" GRANVOF_PROGRAM "' " + column(500.0, "--out killed --set output.checkpoint_interval=0.2");
   const std::string doomed =
       "sh -c \"if [ \\$OMPI_COMM_WORLD_RANK = 1 ]; then "
       "(while [ ! -e killed/checkpoint.h5 ]; do sleep 0.1; done; kill -9 \\$\\$) & fi; exec " +
@@ -162,7 +162,7 @@ TEST_F(Mpirun, EndsWithOneOfItsProcessesAndGoesOnFromItsCheckpoint) {
   EXPECT_NE(outcome.code, 0);
   EXPECT_NE(outcome.code, 124) << "still there after a minute";
   const Outcome resumed =
-      granvof(2, column(20.0, "--out killed --resume --stop-after 1s --set output.checkpoint_interval=0.2"));
+      granvof(2, column(500.0, "--out killed --resume --stop-after 1s --set output.checkpoint_interval=0.2"));
   EXPECT_EQ(resumed.code, 3) << resumed.said;
 }
 
@@ -173,7 +173,7 @@ TEST_F(Mpirun, EndsWithACheckpointAtASignalToOneOfItsProcesses) {
     const std::string told = "sh -c \"if [ \\$OMPI_COMM_WORLD_RANK = 1 ]; then (while [ ! -e " + out +
                              "/checkpoint.h5 ]; do sleep 0.1; done; kill -" + signal +
                              " \\$\\$) & fi; exec '" GRANVOF_PROGRAM "' " +
-                             column(50.0, "--out " + out + " --set output.checkpoint_interval=0.2") + "\"";
+                             column(500.0, "--out " + out + " --set output.checkpoint_interval=0.2") + "\"";
     const Outcome outcome = shell("timeout 120 " + mpirun() + "-np 2 " + told);
     EXPECT_EQ(outcome.code, 1) << outcome.said;
     EXPECT_NE(outcome.said.find("stopped by a signal (SIG" + signal + ")"), std::string::npos)
