@@ -53,7 +53,7 @@ ReferenceValue recorded_reference(const Check& check, const MetricEntry& metric,
       reference.band =
           std::max(reference.band, record_uncertainty(check.metric, *variant.run, bands).value_or(0.0));
     } else {
-      reference.note = fmt::format("{}: {}", variant.run->directory.string(), measured.note);
+      reference.note = fmt::format("{}: {}", variant.run->directory.filename().string(), measured.note);
     }
   }
   if (values.empty() || !reference.complete) return reference;
