@@ -7,7 +7,7 @@ from collections import Counter
 
 from PIL import Image, ImageOps
 
-from granvof_files import write_whole
+from granvof_files import required, write_whole
 from report import film, results
 
 PICTURES = "docs/gallery"
@@ -18,7 +18,7 @@ LEAST_ACROSS = 40  # pixels of a column of few cells
 
 def cases_of(root):
     """{id of a run: its case}, in the order of the table of checks."""
-    table = tomllib.loads((root / "compare/checks.toml").read_text(encoding="utf-8"))
+    table = tomllib.loads(required(root / "compare/checks.toml").read_text(encoding="utf-8"))
     return {run["id"]: run.get("case") or run.get("beside") or run["id"] for run in table["run"]}
 
 
@@ -27,7 +27,7 @@ def picture_of(case):
 
 
 def title_of(root, case):
-    return tomllib.loads((root / f"cases/{case}.toml").read_text(encoding="utf-8"))["scene"]["title"]
+    return tomllib.loads(required(root / f"cases/{case}.toml").read_text(encoding="utf-8"))["scene"]["title"]
 
 
 def shown_run(case, runs):

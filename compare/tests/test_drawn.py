@@ -86,6 +86,9 @@ class Shown:
     def facts(self, *_):
         return []
 
+    def record_of(self, run):
+        return run
+
 
 def test_snapshots_of_model_and_beads_lie_upon_each_other_and_on_their_axes(fields, saved, monkeypatch, tmp_path):
     monkeypatch.setattr(snapshots, "snapshots", lambda entry: [(time, *fields, None) for time in (0.0, 1.0)])
