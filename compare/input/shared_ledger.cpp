@@ -15,7 +15,7 @@ struct SharedTerm {
 
 constexpr std::string_view of_every_ledger = "lost_drag";  // a series without it has none
 
-const std::vector<SharedTerm>& shared_terms() {
+const std::vector<SharedTerm>& terms_counted_alike() {
   static const std::vector<SharedTerm> terms{
       {"released", {}, {"energy_potential"}},
       {"motion", {"energy_kinetic"}, {}},
@@ -54,14 +54,14 @@ void add(Curve& sum, const Run& run, const std::vector<std::string_view>& patter
 
 std::vector<std::string_view> shared_terms() {
   std::vector<std::string_view> names;
-  for (const SharedTerm& term : shared_terms()) names.push_back(term.name);
+  for (const SharedTerm& term : terms_counted_alike()) names.push_back(term.name);
   return names;
 }
 
 Curve shared_term(const Run& run, std::string_view term) {
-  const auto found = std::ranges::find(shared_terms(), term, &SharedTerm::name);
+  const auto found = std::ranges::find(terms_counted_alike(), term, &SharedTerm::name);
   Curve sum;
-  if (found == shared_terms().end() || run.curve(of_every_ledger).empty()) return sum;
+  if (found == terms_counted_alike().end() || run.curve(of_every_ledger).empty()) return sum;
   add(sum, run, found->plus, 1.0);
   add(sum, run, found->minus, -1.0);
   return sum;
