@@ -59,16 +59,7 @@ std::vector<Row> reference_rows() {
             return Usual{bead(s), 0.5 * shortest_of_bed(s)};
           },
           "a cell of the fluid averages over beads, and the bed is some cells high and long"),
-      row(
-          "reference.fluid_dt", "s", of([](const Settings& r) { return r.fluid_dt; }),
-          [](const Scene& s) {
-            return Usual{shortest_step * scales_of(s).time(), longest_step * time_of_change(s)};
-          },
-          [](const Scene& s) {
-            return fmt::format(
-                "the scene changes in {:.3g} s; results follow a longer step, a far shorter one only costs",
-                time_of_change(s));
-          }),
+      flow_step_row("reference.fluid_dt", of([](const Settings& r) { return r.fluid_dt; })),
       row(
           "reference.dt", "s", if_grain([](const Settings& r) { return r.dt; }),
           [](const Scene& s) {

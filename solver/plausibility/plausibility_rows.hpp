@@ -127,13 +127,8 @@ inline constexpr double stiffest = 1e12;              // diamond [Pa]
 inline constexpr double shortest_step = 1e-6;  // in times of the scene: below it no scheme of first order in
                                                // time gains a digit
 inline constexpr double longest_hold = 1e3;    // likewise
-// Share of time_of_change() that a step may take: s1 on 5 mm with steps up to 0.07 / 0.14 / 0.28 of it has
-// its front 0.4 / 0.9 / 1.1 % farther than with 0.014.
-inline constexpr double longest_step = 0.2;
-
-// [s]: that of the scene; or, where that takes longer, the time in which a grain settles or rises by a cell
-// in the liquid (Stokes), which is how fast a suspension changes.
-double time_of_change(const Scene& s);
+// Of a step of the flow [s], none where the scene has no such key.
+Row flow_step_row(const std::string& key, const std::function<Number(const Scene&)>& step);
 
 // Of [contact] and of [reference]; the others stand with the table.
 std::vector<Row> bed_rows();
