@@ -69,6 +69,8 @@ class Friction {
                           const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
                           FaceField& u_s);
   bool holds_by_friction(int d, bool upper) const;
+  template <typename Visit>
+  void for_each_coulomb_wall(Visit&& visit) const;
   void keep_normal_stress(const FaceField& u);
   void set_wall_friction(const Rheology& rheology, const FaceField& u_strain);
   void set_kinetic_edges(const Rheology& rheology);

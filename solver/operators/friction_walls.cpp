@@ -23,6 +23,16 @@ Range edges_on_side(const Grid& grid, const Range& box, int d, int e, bool upper
 
 }  // namespace
 
+// visit(d, upper, e, edges) on each Coulomb wall for each tangential direction e.
+template <typename Visit>
+void Friction::for_each_coulomb_wall(Visit&& visit) const {
+  for (int d = 0; d < grid_.dim; ++d)
+    for (const bool upper : {false, true})
+      for (int e = 0; e < grid_.dim; ++e)
+        if (e != d && holds_by_friction(d, upper))
+          visit(d, upper, e, edges_on_side(grid_, box_, d, e, upper));
+}
+
 void Friction::keep_normal_stress(const FaceField& u) {
   for (int d = 0; d < grid_.dim; ++d) {
     for (const bool upper : {false, true}) {
@@ -94,24 +104,16 @@ void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_st
 
 bool Friction::slips_otherwise(const FaceField& before, const FaceField& now) const {
   double fastest = slowest_sliding * velocity_, changed = 0.0;
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (const bool upper : {false, true}) {
-      if (!holds_by_friction(d, upper)) continue;
-      for (int e = 0; e < grid_.dim; ++e) {
-        if (e == d) continue;
-        const Range wall = edges_on_side(grid_, box_, d, e, upper);
-        const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0;
-        const double u_wall = boundary_.side(d, upper).velocity[e];
-        const double *was = before[e].data(), *is = now[e].data(), *m = marked_[e].data();
-        fastest = max_over(grid_.cells, wall, fastest, [=](std::ptrdiff_t c) {
-          return m[c + inside] * std::fabs(is[c + inside] - u_wall);
-        });
-        changed = max_over(grid_.cells, wall, changed, [=](std::ptrdiff_t c) {
-          return m[c + inside] * std::fabs(is[c + inside] - was[c + inside]);
-        });
-      }
-    }
-  }
+  for_each_coulomb_wall([&](int d, bool upper, int e, const Range& wall) {
+    const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0;
+    const double u_wall = boundary_.side(d, upper).velocity[e];
+    const double *was = before[e].data(), *is = now[e].data(), *m = marked_[e].data();
+    fastest = max_over(grid_.cells, wall, fastest,
+                       [=](std::ptrdiff_t c) { return m[c + inside] * std::fabs(is[c + inside] - u_wall); });
+    changed = max_over(grid_.cells, wall, changed, [=](std::ptrdiff_t c) {
+      return m[c + inside] * std::fabs(is[c + inside] - was[c + inside]);
+    });
+  });
   return changed > settled_slip * fastest;
 }
 
@@ -130,17 +132,10 @@ void Friction::set_kinetic_edges(const Rheology& rheology) {
       });
     }
   }
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (const bool upper : {false, true}) {
-      if (!holds_by_friction(d, upper)) continue;
-      for (int e = 0; e < grid_.dim; ++e) {
-        if (e == d) continue;
-        double* own = kinetic_edge_[plane_index(std::min(d, e), std::max(d, e))].data();
-        for_each(grid_.cells, edges_on_side(grid_, box_, d, e, upper),
-                 [=](std::ptrdiff_t c) { own[c] = 0.0; });
-      }
-    }
-  }
+  for_each_coulomb_wall([&](int d, bool, int e, const Range& wall) {
+    double* own = kinetic_edge_[plane_index(std::min(d, e), std::max(d, e))].data();
+    for_each(grid_.cells, wall, [=](std::ptrdiff_t c) { own[c] = 0.0; });
+  });
 }
 
 // Collisions with the bumps of a wall: stress and slip of bumpy_wall.hpp, in a row with the kinetic viscosity
