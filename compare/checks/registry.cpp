@@ -19,6 +19,7 @@
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
 #include "compare/metrics/series_difference.hpp"
+#include "compare/metrics/start_state.hpp"
 #include "compare/metrics/toe_drift.hpp"
 
 namespace granvof::compare {
@@ -199,6 +200,10 @@ Measured granular_temperature_at(const Run& run, const Parameters& p, const Find
   return measured(value_at(run.curve("theta_max"), *p.at), "no grains at that time");
 }
 
+Measured kinetic_energy_of_grains(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("kinetic_energy_solid"), *p.at), "no grains at that time");
+}
+
 Measured power(const Run& run, const Parameters& p, const FindRun&) {
   return measured(power_of(run, *p.term, *p.window), "no energy budget in the series, or not all the window");
 }
@@ -221,6 +226,12 @@ Measured difference_of_series(const Run& run, const Parameters& p, const FindRun
   const std::string where =
       found->column.empty() ? "" : fmt::format("in {} at T = {:.4g}", found->column, found->time);
   return {found->largest, where};
+}
+
+Measured start(const Run& run, const Parameters&, const FindRun&) {
+  const auto found = start_distance(run);
+  if (!found) return {std::nullopt, "undefined: not a box of grains and a level of liquid on faces of cells"};
+  return {found->largest, found->column.empty() ? "" : "in " + found->column};
 }
 
 constexpr Needs none{};
@@ -321,6 +332,11 @@ constexpr std::array table{
     MetricEntry{"bed_weight_distance", "-",
                 "largest distance of P_s from the weight of the grains above, over its largest, at the end",
                 none, bed_weight},
+    MetricEntry{"start_distance", "-",
+                "largest distance of a column at the start from what the scene says it is, over the latter",
+                none, start},
+    MetricEntry{"kinetic_energy", "J", "of the mean motion of the grains at t = at", at_only,
+                kinetic_energy_of_grains},
     MetricEntry{"solid_pressure", "Pa", "mean P_s of the cells with grains at the end", none, solid_pressure},
     MetricEntry{"asymmetry", "-",
                 "largest difference of f_s or alpha between a cell and its mirror image in x, at the end",

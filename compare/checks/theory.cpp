@@ -106,16 +106,29 @@ std::optional<double> even_shear_power(const Run& run, const Parameters& p) {
 }
 
 // Of a block on a Coulomb floor, from rest: down the slope, or taken along by a floor that moves.
-std::optional<double> sliding_speed(const Run& run, const Parameters& p) {
+std::optional<double> sliding_speed_after(const Run& run, double time) {
   const Side& floor = run.scene.sides[bottom];
-  if (floor.solid.kind != WallKind::coulomb || !p.window) return std::nullopt;
+  if (floor.solid.kind != WallKind::coulomb) return std::nullopt;
   const Vec3 g = gravity_of(run.scene);
   const double friction = floor.solid.friction * normal_gravity(run.scene);
   const double taken = floor.velocity[0] > 0.0 ? friction : -friction;
-  return (g[0] + taken) * p.window->end;
+  return (g[0] + taken) * time;
 }
 
-constexpr std::array<FormulaEntry, 13> table{{
+std::optional<double> sliding_speed(const Run& run, const Parameters& p) {
+  return p.window ? sliding_speed_after(run, p.window->end) : std::nullopt;
+}
+
+std::optional<double> sliding_energy(const Run& run, const Parameters& p) {
+  const auto speed = p.at ? sliding_speed_after(run, *p.at) : std::nullopt;
+  if (!speed || !run.scene.bed) return std::nullopt;
+  const Box& bed = run.scene.bed->box;
+  const double grains = run.scene.bed->solid_fraction * (bed.upper[0] - bed.lower[0]) *
+                        (bed.upper[1] - bed.lower[1]) * run.scene.tank[2];
+  return 0.5 * run.scene.solid.density * grains * *speed * *speed;
+}
+
+constexpr std::array<FormulaEntry, 14> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
@@ -140,6 +153,7 @@ constexpr std::array<FormulaEntry, 13> table{{
      "(g sin(theta) - mu_w g cos(theta)) t, a block down a Coulomb floor; mu_w g t, on one that moves "
      "(Coulomb)",
      sliding_speed},
+    {"sliding_energy", "J", "1/2 m v^2 of that block", sliding_energy},
     {"settling_slip", "m/s",
      "w of beta w = f_s f_c (rho_s - rho_c) g, beta of the scene's drag law as published", settling_slip},
     {"even_shear_temperature", "m2/s2", "Theta of steady even shear: production = collisions + drag, (7)",
