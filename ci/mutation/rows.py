@@ -32,9 +32,10 @@ class Rows:
                               stdout=subprocess.PIPE, text=True).stdout
         kept = json_of(self.tree / "compare/kept/verify/results.json")["costs"]
         planned = [(fields[0], fields[1], fields[2:]) for fields in (line.split("\t") for line in said.splitlines())]
-        cost = {run[0]: kept[run[0]]["core_seconds"] for run in planned if run[0] in kept}
+        # a run that nothing was kept of yet is new, and tried
+        cost = {run[0]: kept[run[0]]["core_seconds"] if run[0] in kept else 0.0 for run in planned}
         chosen, spent = [], 0.0
-        for run in sorted((run for run in planned if run[0] in cost), key=lambda run: cost[run[0]]):
+        for run in sorted(planned, key=lambda run: cost[run[0]]):
             spent += cost[run[0]]
             if cost[run[0]] > self.dearest or spent > self.budget:
                 break
