@@ -2,6 +2,7 @@
 a row changes its verdict. A row counts once every run that it reads is as it would be with the fault in the whole
 project: between a run with it and one without, any fault shows. Rows of what a run costs say how busy the machine is."""
 
+import hashlib
 import os
 import shutil
 import subprocess
@@ -11,7 +12,7 @@ from collections import Counter
 from granvof_files import json_of, write_json
 from mutation import process
 
-DEAREST, ALL = 4.0, 60.0  # core-seconds of a run, and of all that are tried, by the kept costs
+DEAREST, ALL = 2.5, 45.0  # core-seconds of a run, and of all that are tried, by the kept costs
 
 
 class Rows:
@@ -70,7 +71,8 @@ class Rows:
     def without_fault(self, say):
         """Makes the runs and judges them; what was found for the same programs is taken as it is. What is wrong, else ''."""
         kept = self.work / "rows.json"
-        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, self.dearest, self.budget]
+        table = hashlib.sha1((self.tree / "compare/checks.toml").read_bytes()).hexdigest()
+        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, table, self.dearest, self.budget]
         self.runs = self.plan()
         base = self.work / "runs"
         if kept.exists():

@@ -43,8 +43,9 @@ def stand_ins(tmp_path, shell):
     compare = tree / "build/release/compare/granvof-compare"
     compare.write_text("#!/usr/bin/python3\n" + STANDS_FOR_COMPARE)
     compare.chmod(0o755)
-    costs = {name: {"core_seconds": cost} for name, cost in (("s2", 1.0), ("s1", 0.5), ("dear", 1e3))}
+    costs = {name: {"core_seconds": cost} for name, cost in (("s2", 1.0), ("dear", 1e3))}
     (tree / "compare/kept/verify/results.json").write_text(json.dumps({"costs": costs}))
+    (tree / "compare/checks.toml").write_text("rows")
     made = rows.Rows(tree, tmp_path / "work", tmp_path)
     said = []
     assert made.without_fault(said.append) == ""
@@ -66,10 +67,18 @@ class Numbered:
 
 
 def test_rows_try_the_cheap_runs_in_order_of_their_cost(stand_ins):
-    made, said = stand_ins
+    made, said = stand_ins  # nothing is kept of s1, which is new
     assert [run[0] for run in made.runs] == ["s1", "s2"]
     assert [line.split(": ")[1].split(",")[0] for line in said] == ["s1", "s2"]
     assert made.base == {"s1.row": "agrees", "s2.row": "agrees"}
+
+
+def test_what_was_found_without_a_fault_is_for_one_table_of_checks(stand_ins):
+    made, said = stand_ins
+    said.clear()
+    assert made.without_fault(said.append) == "" and said == []
+    (made.tree / "compare/checks.toml").write_text("other rows")
+    assert made.without_fault(said.append) == "" and len(said) == 2
 
 
 def test_the_row_that_changes_is_named(stand_ins):

@@ -101,17 +101,27 @@ double friction_of_agitation(const Scene& scene, double f, double pressure, doub
   return beta * shear * d * d / (9.0 * (shear * d / free + 1e-3) * pressure);
 }
 
-// P_s^ES of (13), grains that touch at f_s,min.
-double elastic(const Contact& c, double f) {
-  const double excess = f - c.solid_fraction_min, width = c.solid_fraction_max - c.solid_fraction_min;
+// Where grains touch: at f_s,min; with a packing of their own where they are set down without weight, and
+// where shear drives it in the end, to the critical one.
+double touching(const Scene& scene, double f) {
+  const Contact& c = scene.contact;
+  if (scene.model.shear_dilatancy) return c.critical_solid_fraction;
+  return scene.model.packing == Packing::carried ? std::max(f, c.solid_fraction_min) : c.solid_fraction_min;
+}
+
+// P_s^ES of (13).
+double elastic(const Contact& c, double f, double touch) {
+  const double excess = f - touch, width = c.solid_fraction_max - c.solid_fraction_min;
   if (excess <= 0.0) return 0.0;
   return c.stiffness * f * std::pow(excess, c.exponent) * (1.0 + std::sin(pi * (excess / width - 0.5)));
 }
 
-// P_s^D of (15), with (1 - e) and the exponent 2 / delta.
+// P_s^D of (15), with (1 - e) and the exponent 2 / delta; f_s0 where grains touch at f_s,min, no nearer than
+// 0.005.
 double dense(const Scene& scene, double f, double theta, double e) {
   const Contact& c = scene.contact;
-  const double bracket = c.dilatancy_factor * f * c.dense_solid_fraction / (c.dense_solid_fraction - f);
+  const double f_s0 = c.dense_solid_fraction + touching(scene, f) - c.solid_fraction_min;
+  const double bracket = c.dilatancy_factor * f * f_s0 / std::max(f_s0 - f, 0.005);
   return 15.0 * scene.solid.density * theta * (1.0 - e) * std::pow(bracket, 2.0 / c.dilatancy_exponent);
 }
 
@@ -139,7 +149,7 @@ std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   const Model& model = scene.model;
   const double speed = scene.sides[top].velocity[0] - scene.sides[bottom].velocity[0];
   if (!scene.bed || speed <= 0.0 || model.granular_temperature != TemperatureModel::transported ||
-      model.carries_packing() || model.correlated_collisions)
+      model.correlated_collisions || model.critical_packing != CriticalPacking::constant)
     return std::nullopt;
   const Solid& solid = scene.solid;
   const double f = scene.bed->solid_fraction, shear = speed / scene.tank[1], g0 = contacts_to_be(scene, f);
@@ -161,7 +171,7 @@ std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   even.energy = 1.5 * f * solid.density * even.theta;
   even.drag = 3.0 * beta * even.theta;
   const double kinetic = solid.density * f * even.theta * (1.0 + 2.0 * (1.0 + e) * f * g0);  // (11)
-  double borne = elastic(scene.contact, f);
+  double borne = elastic(scene.contact, f, touching(scene, f));
   if (model.dilatancy_pressure) borne += std::max(dense(scene, f, even.theta, e) - kinetic, 0.0);  // (14)
   if (model.viscous_contact_pressure)
     borne += std::pow(f / (scene.contact.solid_fraction_max - f), 2) * scene.liquid.viscosity * shear;

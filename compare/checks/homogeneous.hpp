@@ -28,8 +28,8 @@ struct EvenShear {
   double fluid = 0.0;     // what the fluid's viscosity takes, (10) included [W/m3]
 };
 
-// Nothing without a bed, moving walls, or Theta of its own equation; nor with packing, or a correlation of
-// collisions, that has a history.
+// Nothing without a bed, moving walls, or Theta of its own equation; nor with a critical
+// packing that follows the rate, or correlated collisions.
 std::optional<EvenShear> printed_even_shear(const Scene& scene);
 
 }  // namespace granvof::compare

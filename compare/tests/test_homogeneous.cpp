@@ -67,9 +67,32 @@ TEST(PrintedEvenShear, OfGrainsThatTouch) {
   EXPECT_NEAR(with->pressure - 692.75, 2500.0 * 0.575 * with->theta * (1.0 + 2.0 * 1.63 * 0.575 * g0), 10.0);
 }
 
+// (15) takes no packing nearer to f_s0 than 0.005; grains set down without weight touch where they are, and
+// f_s0 moves with them.
+TEST(PrintedEvenShear, OfGrainsNearTheirDensest) {
+  const auto dense = [](double gap, double f, double f_s0, double theta) {
+    return 15.0 * 2500.0 * theta * (1.0 - 0.63) * std::pow(0.28 * f * f_s0 / gap, 2.0 / 0.58);
+  };
+  const std::vector<std::string> still{"gas.viscosity=0", "model.drag=false", "solid.restitution=0.63"};
+  const auto of = [&](std::vector<std::string> more) {
+    more.insert(more.end(), still.begin(), still.end());
+    return *printed_even_shear(even("shear", more));
+  };
+  const EvenShear capped = of({"bed.solid_fraction=0.598", "contact.stiffness=1e-3"});
+  EXPECT_NEAR(capped.pressure, dense(0.005, 0.598, 0.6, capped.theta), 1.0);
+  const EvenShear carried = of({"bed.solid_fraction=0.59", "model.packing=carried"});
+  EXPECT_NEAR(carried.pressure, dense(0.03, 0.59, 0.62, carried.theta), 1e-6 * carried.pressure);
+  // (13) at 0.59 where they touch at 0.582: 1e8 . 0.59 . 0.008^1.5 (1 + sin(-66 deg)) = 3649.85 Pa
+  const EvenShear critical =
+      of({"bed.solid_fraction=0.59", "model.shear_dilatancy=true", "model.dilatancy_pressure=false"});
+  const double g0 = (1.0 - 7.0 * 0.59 / 16.0) / std::pow(1.0 - 0.59 / 0.63, 2);
+  EXPECT_NEAR(critical.pressure - 2500.0 * 0.59 * critical.theta * (1.0 + 2.0 * 1.63 * 0.59 * g0), 3649.7,
+              0.1);
+}
+
 TEST(PrintedEvenShear, NeedsMovingWallsAndNoHistory) {
   EXPECT_FALSE(printed_even_shear(even("settling")));
-  EXPECT_FALSE(printed_even_shear(even("shear", {"model.packing=carried"})));
+  EXPECT_FALSE(printed_even_shear(even("shear", {"model.correlated_collisions=true"})));
   EXPECT_FALSE(printed_even_shear(even("shear", {"model.granular_temperature=off"})));
 }
 
