@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "compare/checks/last_instant.hpp"
+#include "compare/checks/start_state.hpp"
 #include "compare/checks/whole_run.hpp"
 #include "compare/input/curves.hpp"
 #include "compare/input/shared_ledger.hpp"
@@ -19,7 +20,6 @@
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
 #include "compare/metrics/series_difference.hpp"
-#include "compare/metrics/start_state.hpp"
 #include "compare/metrics/toe_drift.hpp"
 
 namespace granvof::compare {

@@ -1,4 +1,4 @@
-#include "compare/metrics/start_state.hpp"
+#include "compare/checks/start_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ Known known(const Scene& scene) {
               {"potential_energy_liquid", energy(liquid, scene.liquid.density)},
               {"potential_energy_gas", energy(gas, scene.gas.density)}};
   if (bed.lower[1] > 0.0) known.emplace_back("bed_bottom", bed.lower[1]);
-  if (g[0] == 0.0 && scene.sides[top].kind == SideKind::open)
+  if (g[0] == 0.0)
     known.emplace_back("p_base", -g[1] * (scene.liquid.density * (level - 0.5 * scene.grid.spacing[1]) +
                                           scene.gas.density * (scene.tank[1] - level)));
   return known;
