@@ -53,8 +53,8 @@ class Rows:
     def verdicts(self, runs, environment, out):
         """{id of a row: verdict} of the runs in that directory; None where there is no comparison."""
         shutil.rmtree(out, ignore_errors=True)
-        ended = process.run([self.compare, "check", "--runs", runs, "--leave-out", "canary", "--out", out], self.tree, 300.0,
-                            self.scratch, environment)
+        ended = process.run([self.compare, "check", "--runs", runs, "--leave-out", "canary", "--out", out], self.tree,
+                            process_limit(self.seconds.get("check", 30.0)), self.scratch, environment)
         if ended.code not in (0, 1):
             return None
         rows = [row for row in json_of(out / "results.json")["results"] if row["reference_kind"] != "aim"]
