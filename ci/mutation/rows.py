@@ -18,17 +18,19 @@ DEAREST, ALL = 2.5, 45.0  # core-seconds of a run, and of all that are tried, by
 class Rows:
     """The runs that are cheap enough, made without a fault, and the verdicts that follow."""
 
-    def __init__(self, tree, work, scratch, dearest=DEAREST, budget=ALL):
-        self.tree, self.work, self.scratch = tree, work, scratch
+    def __init__(self, tree, work, scratch, dearest=DEAREST, budget=ALL, made=None):
+        """`made`: a directory of runs that `make verify` has made: the dearer ones are taken from there as they are, for faults
+        of what judges them."""
+        self.tree, self.work, self.scratch, self.made = tree, work, scratch, made
         self.build = tree / "build/release"
         self.solver, self.compare = self.build / "solver/granvof", self.build / "compare/granvof-compare"
         self.dearest, self.budget = dearest, budget
-        self.runs, self.reached, self.seconds = [], {}, {}
+        self.runs, self.others, self.reached, self.seconds = [], [], {}, {}
         self.reads = {}  # of a row: the run it judges, and the one it is judged against, if any
         self.noticed = Counter()  # faults that each run has noticed in this call
 
     def plan(self):
-        """(id, case, overrides) of the runs, cheapest first."""
+        """(id, case, overrides) of the runs, cheapest first; and the ids of the others."""
         said = subprocess.run([self.compare, "plan", "--frequency", "verify"], cwd=self.tree, check=True,
                               stdout=subprocess.PIPE, text=True).stdout
         kept = json_of(self.tree / "compare/kept/verify/results.json")["costs"]
@@ -41,7 +43,7 @@ class Rows:
             if cost[run[0]] > self.dearest or spent > self.budget:
                 break
             chosen.append(run)
-        return chosen
+        return chosen, [run[0] for run in planned if run not in chosen]
 
     def make(self, run, directory, time_limit, environment):
         identity, case, overrides = run
@@ -72,8 +74,8 @@ class Rows:
         """Makes the runs and judges them; what was found for the same programs is taken as it is. What is wrong, else ''."""
         kept = self.work / "rows.json"
         table = hashlib.sha1((self.tree / "compare/checks.toml").read_bytes()).hexdigest()
-        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, table, self.dearest, self.budget]
-        self.runs = self.plan()
+        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, table, self.dearest, self.budget, str(self.made)]
+        self.runs, self.others = self.plan()
         base = self.work / "runs"
         if kept.exists():
             before = json_of(kept)
@@ -90,6 +92,9 @@ class Rows:
             if ended.code != 0:
                 return f"the run {run[0]} fails without a fault: {ended.how}"
             say(f"without a fault: {run[0]}, {self.seconds[run[0]]:.1f} s")
+        for name in self.others:
+            if self.made and (self.made / name).is_dir():
+                os.symlink((self.made / name).resolve(), base / name)
         begun = time.monotonic()
         self.base, self.reached["check"] = self.traced(lambda environment: self.verdicts(base, environment, self.work / "verdicts"))
         self.seconds["check"] = round(time.monotonic() - begun, 2)
@@ -108,8 +113,8 @@ class Rows:
         place = self.work / "with-fault"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
-        for run in self.runs:
-            os.symlink(self.work / "runs" / run[0], place / run[0])
+        for path in (self.work / "runs").iterdir():
+            os.symlink(path.resolve(), place / path.name)
         if mutant.number in self.reached["check"]:
             changed = self.changed(place, environment, due)
             if changed:
