@@ -36,6 +36,16 @@ void Monitors::update(const State& s, double liquid_left, double solid_left) {
       -max_over(grid_.cells, grid_.all_cells(), -solid_min_, [=](std::ptrdiff_t c) { return -f[c]; });
 }
 
+double Monitors::outlet_load(const State& s) const {
+  const double* p = s.p_s.data();
+  double load = 0.0;
+  grid_.for_each_passing_side([&](int d, bool upper) {
+    if (grid_.side(d, upper).passes_grains)
+      load = max_over(grid_.cells, grid_.side_cells(d, upper), load, [=](std::ptrdiff_t c) { return p[c]; });
+  });
+  return load;
+}
+
 std::string Monitors::not_finite(const State& s) const {
   const auto finite = [&](const Field& field) {
     const double* v = field.data();

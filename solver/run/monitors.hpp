@@ -21,6 +21,7 @@ class Monitors {
   double liquid_volume_error() const { return liquid_error_; }  // the same, outflow accounted for [-]
   double solid_fraction_max() const { return solid_max_; }      // largest ever [-]
   double solid_fraction_min() const { return solid_min_; }      // smallest ever [-]
+  double outlet_load(const State& s) const;  // largest P_s of cells beside sides that grains pass [Pa]
   // Empty, or which field is not finite.
   std::string not_finite(const State& s) const;
 
