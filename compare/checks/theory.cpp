@@ -106,11 +106,14 @@ std::optional<double> even_shear_pressure(const Run& run, const Parameters&) {
 std::optional<double> even_shear_power(const Run& run, const Parameters& p) {
   const auto even = printed_even_shear(run.scene);
   if (!even || !p.term) return std::nullopt;
-  if (*p.term == "contacts") return even->contacts;
-  if (*p.term == "drag") return even->drag;
-  if (*p.term == "agitation" && p.window) return even->energy / (p.window->end - p.window->begin);
-  if (*p.term == "viscosity") return even->fluid;
-  if (*p.term == "walls") return -(even->contacts + even->drag + even->fluid);
+  const Box& bed = run.scene.bed->box;
+  const double share =
+      (bed.upper[1] - bed.lower[1]) / run.scene.tank[1];  // of the tank, the rest is obstacle
+  if (*p.term == "contacts") return share * even->contacts;
+  if (*p.term == "drag") return share * even->drag;
+  if (*p.term == "agitation" && p.window) return share * even->energy / (p.window->end - p.window->begin);
+  if (*p.term == "viscosity") return share * even->fluid;
+  if (*p.term == "walls") return -share * (even->contacts + even->drag + even->fluid);
   return std::nullopt;
 }
 
