@@ -63,12 +63,16 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
 // Not those on sides of the tank, which are walls themselves.
 void Obstacles::find_edges(const Layout& l, int d, int e) {
   std::array<int, 3> lower{}, upper = l.n;
-  for (const int axis : {d, e}) lower[axis] = l.periodic[axis] ? 0 : 1;
+  for (const int axis : {d, e}) {
+    lower[axis] = l.periodic[axis] ? 0 : 1;
+    upper[axis] += l.periodic[axis] ? 1 : 0;
+  }
   const std::ptrdiff_t s = l.stride[d], t = l.stride[e];
   for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
     Edge edge;
     edge.place = at;
     edge.at = l.index(at);
+    edge.copy = at[d] == l.n[d] || at[e] == l.n[e];
     for (const std::ptrdiff_t c : {edge.at, edge.at - s, edge.at - t, edge.at - s - t})
       if (!is_solid(c)) edge.open[edge.cells++] = c;
     if (edge.cells == 0 || edge.cells == 4) return;

@@ -25,6 +25,8 @@ class Obstacles {
     int cells = 0;
     // Along a flat surface: two open cells, and one open face between them.
     bool flat = false;
+    // The copy, at the upper end of a period, of one at its lower end: the last cells have it beside them.
+    bool copy = false;
     // Open faces around it: component and index, `faces` of them.
     std::array<std::pair<int, std::ptrdiff_t>, 4> face{};
     int faces = 0;

@@ -141,7 +141,7 @@ FluidViscosity::Power FluidViscosity::power(const Boundary& boundary, const Face
           sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) { return edge_mean(mu, c, s, t) * g[c] * g[c]; });
       power.dissipation -=  // half of it is fluid
           sum_of(grid_.cells, grid_.obstacles.edges(plane_index(d, e)), [=](const Obstacles::Edge& edge) {
-            return edge.flat ? 0.5 * edge_mean(mu, edge.at, s, t) * g[edge.at] * g[edge.at] : 0.0;
+            return edge.flat && !edge.copy ? 0.5 * edge_mean(mu, edge.at, s, t) * g[edge.at] * g[edge.at] : 0.0;
           });
     }
   }
