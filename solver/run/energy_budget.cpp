@@ -46,13 +46,13 @@ EnergyTerms EnergyBudget::stored(const State& s) const {
     terms.kinetic += 0.5 * grid_.cell_volume *
                      sum_over(grid_.cells, grid_.inner_faces(d),
                               [=](std::ptrdiff_t c) { return ms[c] * u[c] * u[c] + mc[c] * v[c] * v[c]; });
-    for (const bool upper : {false, true}) {
-      if (!grid_.side(d, upper).passes_fluid) continue;
-      terms.kinetic += 0.25 * grid_.cell_volume *
-                       sum_over(grid_.cells, grid_.side_faces(d, upper),
-                                [=](std::ptrdiff_t c) { return mc[c] * v[c] * v[c]; });
-    }
   }
+  grid_.for_each_passing_side([&](int d, bool upper) {
+    const double *mc = inertia.fluid[d].data(), *v = s.u_c[d].data();
+    terms.kinetic += 0.25 * grid_.cell_volume *
+                     sum_over(grid_.cells, grid_.side_faces(d, upper),
+                              [=](std::ptrdiff_t c) { return mc[c] * v[c] * v[c]; });
+  });
   return terms;
 }
 
