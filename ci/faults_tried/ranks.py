@@ -46,8 +46,7 @@ class SharedRun(SmallRun):
 def told(run, place, rank, number, processes):
     """Why a run does not end as it should once the process of that rank has got the signal."""
     out = place / "run"
-    running = subprocess.Popen(run.command(out), cwd=run.bench.root, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+    running = run.start(out)
     wait_until(lambda: running.poll() is not None or (out / "checkpoint.h5").exists(), START)
     found = ranks_of(place)
     if running.poll() is not None or len(found) != processes:
