@@ -5,7 +5,7 @@
 # OUT=dir           where results go (default: out)          JOBS=n     jobs: compiling, tests, runs beside each other
 # GO_ON=yes         make verify keeps the runs that this very program has made, and goes on with those cut short
 # PREFIX=dir        where make install puts it (default: /usr/local)
-# SAMPLE=n          so many of the faults (make mutate)        FOR=n   seconds for each reader (make fuzz)
+# SAMPLE=n          so many of the faults (make mutate)        FOR=n, INPUTS=n   seconds, or inputs, of each reader (make fuzz)
 # LABELS=unit       those tests only (make test; default: unit|verification)
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
@@ -89,8 +89,8 @@ faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/fa
 mutate: setup  ## small faults put into the code one at a time (ci/mutants): who notices each, for the report; goes on where it stopped
 	ci/mutate --out "$(OUT)" --jobs $(JOBS) $(if $(SAMPLE),--sample $(SAMPLE))
 
-fuzz: setup  ## any bytes at all into the readers of files, ten minutes each (FOR=n: n seconds)
-	ci/fuzz --out "$(OUT)" $(if $(FOR),--seconds $(FOR))
+fuzz: setup  ## any bytes at all into the readers of files, ten minutes each (FOR=n: n seconds; INPUTS=n: the same n inputs)
+	ci/fuzz --out "$(OUT)" $(if $(INPUTS),--inputs $(INPUTS),$(if $(FOR),--seconds $(FOR)))
 
 bench: setup  ## performance of the parts, and of whole runs against their targets (ci/targets.toml)
 	ci/build --benchmarks release

@@ -62,6 +62,15 @@ Curve curve_of(const Run& run, const Derived& quantity) {
   return given;
 }
 
+// Finite numbers of a foreign file can be too large for their differences, squares or areas.
+void require_finite(const LaidCurve& curve) {
+  for (const auto& value : {curve.rms, curve.ours_at_end, curve.theirs_at_end, curve.ours_integral,
+                            curve.theirs_integral, std::optional(curve.window.end - curve.window.begin)})
+    if (value && !std::isfinite(*value))
+      throw std::invalid_argument(
+          fmt::format("the times or values of '{}' are too large to be compared", curve.name));
+}
+
 std::optional<LaidCurve> laid(std::string_view name, std::string_view unit, std::string_view abscissa,
                               Curve ours, Curve theirs) {
   if (ours.size() < 2 || theirs.size() < 2) return std::nullopt;
@@ -83,6 +92,7 @@ std::optional<LaidCurve> laid(std::string_view name, std::string_view unit, std:
   result.theirs_at_end = value_at(result.theirs, window.end);
   result.ours_integral = integral(clip(result.ours, window));
   result.theirs_integral = integral(clip(result.theirs, window));
+  require_finite(result);
   return result;
 }
 

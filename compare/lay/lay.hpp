@@ -34,7 +34,8 @@ Run read_their_series(const std::filesystem::path& file, const Scene& scene);
 // serves our own runs. Throws OutputError, std::invalid_argument if their box is not the scene's tank.
 Run read_their_fields(const std::filesystem::path& file, const Scene& scene);
 
-// Every quantity that both hold. Throws std::invalid_argument if there is none.
+// Every quantity that both hold. Throws std::invalid_argument if there is none, or if one is too large for
+// its differences or areas to be finite.
 std::vector<LaidCurve> lay(const Run& ours, const Run& theirs);
 
 // For people, and for the plots.

@@ -79,6 +79,17 @@ TEST_F(Lay, BadInputIsNamed) {
   EXPECT_NE(refusal("time [ms],front_dense [m]\n0,1\n").find("expected 's'"), std::string::npos);
 }
 
+// Finite in the file, and beyond what differences, squares, areas or other units can hold.
+TEST_F(Lay, WhatIsTooLargeToCompareIsRefused) {
+  for (const char* text : {"time [s],front_dilute [m]\n0,1e308\n1,-1e308\n",
+                           "time [s],front_dilute [m]\n-1.7e308,1\n1.7e308,2\n",
+                           "time [s],run_out [-]\n0,1\n1.7e308,2\n1.75e308,2\n",
+                           "time [s],p_base [Pa]\n0,1e200\n1e200,-1e200\n"}) {
+    const compare::Run run = theirs(text);
+    EXPECT_THROW(lay(run, run), std::invalid_argument) << text;
+  }
+}
+
 TEST_F(Lay, WhatNeitherHasIsLeftOut) {
   const compare::Run zero = theirs("T [-],run_out [-],f_s_max [-]\n0,0,0\n2,1,0\n");
   EXPECT_EQ(lay(zero, zero).size(), 1u);
