@@ -28,7 +28,8 @@ class Obstacles {
     int across = 0;        // then the direction across that surface,
     bool above = false;    // and whether the open cells are the upper ones along it
     bool on_side = false;  // of the tank, through which something flows: half of the edge is inside
-    bool copy = false;     // at the upper end of a period, of the one at the lower
+    // The copy, at the upper end of a period, of one at its lower end: the last cells have it beside them.
+    bool copy = false;
     // Open faces around it: component and index, `faces` of them.
     std::array<std::pair<int, std::ptrdiff_t>, 4> face{};
     int faces = 0;
