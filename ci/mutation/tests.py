@@ -28,7 +28,7 @@ class Test:
 
 def listed(build):
     """Tests of CTest with a known label, in its order."""
-    said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE).stdout
+    said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE, text=True).stdout
     found = []
     for entry in json_in(said)["tests"]:
         properties = {item["name"]: item["value"] for item in entry.get("properties", [])}

@@ -1,6 +1,8 @@
 // Inlets and outlets: what comes in and leaves is accounted, and flows as theory has it.
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "solver/closures/drag/drag.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/monitors.hpp"
@@ -229,9 +231,30 @@ TEST(Grains, ComeInAndLeave) {
   EXPECT_LT(account.monitors.liquid_volume_error(), 1e-11);
   // As much leaves as comes in: the channel is full of what came.
   EXPECT_NEAR(account.monitors.solid_volume(run.now), 0.1 * 0.06 * 0.04, 0.02 * 0.1 * 0.06 * 0.04);
-  EXPECT_NEAR(account.monitors.solid_volume(run.now), -account.solid_left, 1e-10);
+  EXPECT_LT(account.monitors.solid_volume_error(), 1e-11);
   EXPECT_LT(std::fabs(run.now.energy.residual),
             1e-9 * energy_turnover(run.scene, account.start, run.now.energy));
+}
+
+// A dense bed falls out of a tank of air, or leans on its side: what the grains press and rub on what takes
+// them is in the budget (without it a quarter of the energy was not accounted for).
+TEST(Grains, LeaveUnderLoad) {
+  for (const char* outlet : {"bottom", "right"}) {
+    Simulation run(test::small_tank(
+        "leave", "size = [0.1, 0.1]", 0.1,
+        fmt::format("[walls]\nall = \"no-slip\"\ntop = \"open\"\n{} = {{ outflow_pressure = 0 }}\n[bed]\ny = "
+                    "{}\nlength = 0.09\nheight = 0.05\nsolid_fraction = 0.575\n",
+                    outlet, outlet[0] == 'b' ? 0.02 : 0.0),
+        {"liquid=false", "solid.diameter=1e-3"}));
+    Account account(run);
+    account.until(0.2);
+    ASSERT_FALSE(HasFatalFailure()) << outlet;
+    EXPECT_GT(account.solid_left, 0.0) << outlet;
+    EXPECT_LT(account.monitors.solid_volume_error(), 1e-12) << outlet;
+    EXPECT_LT(std::fabs(run.now.energy.residual),
+              1e-4 * energy_turnover(run.scene, account.start, run.now.energy))
+        << outlet;
+  }
 }
 
 }  // namespace
