@@ -72,7 +72,7 @@ TEST(StrainRate, AnObstacleOverTheEndsOfAPeriodIsAFloor) {
   FaceField u = s.faces({above, rest, rest});
   s.boundary.fill_velocity(u, Phase::fluid);
   StrainRate strain(s.grid);
-  strain.update(s.grid, u);
+  strain.update(s.grid, s.boundary.walls(), u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(strain.squared[s.grid.cells.index(i, 1, 0)], 0.5, 1e-12) << i;
 }
 
