@@ -83,7 +83,7 @@ double convect_in(const Field& mass, const Grid& grid, const FaceField& u, int d
 }
 
 // The same on faces from which a wall inside the tank is in sight, in the place of what convect_in() made of
-// the values beyond it. Returns what the sum changes by.
+// the values beyond it. Returns what this process's part of the sum changes by.
 template <int dim, typename DifferenceAlong, typename DifferenceAcross>
 double convect_beside_walls(const Field& mass, const Grid& grid, const InnerWalls& walls, const FaceField& u,
                             int d, const Range& faces, DifferenceAlong along, DifferenceAcross across,
@@ -122,13 +122,16 @@ double convect(const Field& mass, const Grid& grid, const InnerWalls& walls, con
   Range inside = common(faces, grid.inner_faces(d)), first = faces, last = faces;
   first.upper[d] = inside.lower[d];
   last.lower[d] = inside.upper[d];
+  double beside = 0.0;
   const auto part = [&](const Range& r, auto along) {
     const double taken = convect_in<dim>(mass, grid, u, d, r, along, difference, acceleration);
-    return walls.none() ? taken
-                        : taken + convect_beside_walls<dim>(mass, grid, walls, u, d, r, along, difference,
-                                                            acceleration);
+    if (!walls.none())
+      beside += convect_beside_walls<dim>(mass, grid, walls, u, d, r, along, difference, acceleration);
+    return taken;
   };
-  return part(inside, difference) + part(first, upwind_difference) + part(last, upwind_difference);
+  const double taken =
+      part(inside, difference) + part(first, upwind_difference) + part(last, upwind_difference);
+  return walls.none() ? taken : taken + of_all(grid.cells, beside);
 }
 
 template <typename Difference>
