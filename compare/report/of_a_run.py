@@ -85,8 +85,14 @@ def show(directory):
     page = out / "report.html"
     write_whole(page, environment.get_template("run_page.html").render(
         name=name, title=scene["title"], figures=figures, resolved=run.facts["resolved_case"], warnings=warnings_of(run.facts),
-        facts=[(what.replace("_", " "), shortened(run.facts[what])) for what in FACTS if run.facts.get(what) is not None]))
+        facts=[(what.replace("_", " "), shortened(run.facts[what])) for what in FACTS if run.facts.get(what) is not None] + model_of(run.facts)))
     return page
+
+
+def model_of(facts):
+    """The parts of the model that act in the run, as its run.json lists them; nothing where it lists none."""
+    parts = [f"{part['name']} {part['equations']}".strip() for part in facts.get("parts", [])]
+    return [("model", "; ".join(parts))] if parts else []
 
 
 def warnings_of(facts):
