@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from granvof_files import no_program, toml_of
+from night.together import ends_with_parent
 
 SAMPLE = 4  # tries of an entry in a sample
 LONGEST_MESSAGE = 2000  # characters
@@ -126,12 +127,24 @@ class Bench:
 
     def call(self, command, **options):
         environment = {**os.environ, **options.pop("environment", {})}
+        before = told_of_our_end(options.pop("preexec_fn", None))
         try:
             return subprocess.run([str(part) for part in command], cwd=options.pop("cwd", self.root), stdin=subprocess.DEVNULL,
                                   stdout=options.pop("stdout", subprocess.PIPE), stderr=subprocess.PIPE,
-                                  timeout=options.pop("patience", PATIENCE), env=environment, **options)
+                                  timeout=options.pop("patience", PATIENCE), env=environment, preexec_fn=before, **options)
         except subprocess.TimeoutExpired:
             return None
+
+
+def told_of_our_end(further=None):
+    """For preexec_fn: what is tried ends with the tries; then what the try itself asks for."""
+    parent = os.getpid()
+
+    def before():
+        ends_with_parent(parent)
+        if further is not None:
+            further()
+    return before
 
 
 def refused(ended):

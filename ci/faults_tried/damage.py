@@ -5,6 +5,8 @@ import re
 import shutil
 import stat
 
+import h5py
+
 from faults_tried.bench import listed
 
 
@@ -109,8 +111,44 @@ def digit(path, chance):
     path.write_bytes(content)
 
 
+DEPTH = 100_000  # of what is nested, where a parser may descend once for each
+GROUPS = 2_000  # that lie in each other in an HDF5 file: each costs a thousand times what a bracket does
+
+
+def deep(path, chance):
+    """Arrays in arrays, groups in groups: in the place of a text, else beside what is there."""
+    if path.suffix == ".h5":
+        with h5py.File(path, "r+") as file:
+            group = file
+            for _ in range(GROUPS):
+                group = group.create_group("t")
+    else:
+        begin = b"" if path.suffix == ".json" else b"a = "
+        path.write_bytes(begin + b"[" * DEPTH + b"]" * DEPTH + b"\n")
+
+
+def deep_tables(path, chance):
+    """Inline tables in each other, objects in objects."""
+    one = b'{"a":' if path.suffix == ".json" else b"{a = "
+    path.write_bytes((b"" if path.suffix == ".json" else b"a = ") + one * DEPTH + b"1" + b"}" * DEPTH + b"\n")
+
+
+def deep_key(path, chance):
+    path.write_bytes(b"a" + b".a" * DEPTH + b" = 1\n")
+
+
+def deep_header(path, chance):
+    path.write_bytes(b"[[a" + b" . \"a\"" * DEPTH + b"]]\n")
+
+
+def long_line(path, chance):
+    """One cell of a table, one text, that has no end."""
+    path.write_bytes(path.read_bytes() + b"9" * (1 << 20) + b"\n")
+
+
 BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text,
-                                         fifo, endless, null, bound, to_nothing, to_itself, flipped, line_out, line_twice, digit)}
+                                         fifo, endless, null, bound, to_nothing, to_itself, flipped, line_out, line_twice, digit,
+                                         deep, deep_tables, deep_key, deep_header, long_line)}
 NO_FILES = ("directory", "missing", "fifo", "endless", "null", "bound", "to_nothing", "to_itself")  # nothing to be read
 BY_CHANCE = ("flipped", "line_out", "line_twice", "digit")  # another one every time
 

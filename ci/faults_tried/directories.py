@@ -44,6 +44,11 @@ def of_another_program(bench, run, out):
     (out / "run.json").write_text(json.dumps({**record, "program": "demvof"}))
 
 
+def of_a_longer_run(bench, run, out):
+    """The same case, that has come further."""
+    run.go(out, sets=["time.end=0.3"])
+
+
 def of_a_user(bench, run, out):
     (out / "fields").mkdir(parents=True)
     (out / "fields/t0000.h5").write_text("mine\n")
@@ -55,7 +60,7 @@ def a_file(bench, run, out):
     (out / "in").write_text("a file\n")
 
 
-PLACES = {place.__name__: place for place in (of_another_case, of_another_scene, of_another_program, of_a_user, a_file)}
+PLACES = {place.__name__: place for place in (of_another_case, of_another_scene, of_another_program, of_a_longer_run, of_a_user, a_file)}
 
 
 def foreign(bench, entry):

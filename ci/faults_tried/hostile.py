@@ -259,6 +259,18 @@ def nested(place):
     return b"[a]\nb = " + b"[" * 100000 + b"]" * 100000
 
 
+def nested_tables(place):
+    return b"a = " + b"{a = " * 100000 + b"1" + b"}" * 100000
+
+
+def a_deep_key(place):
+    return b"a" + b".a" * 100000 + b" = 1\n"
+
+
+def a_deep_header(place):
+    return b"[a" + b".a" * 100000 + b"]\n"
+
+
 def a_long_key(place):
     return b"k" * (1 << 20) + b" = 1\n"
 
@@ -296,7 +308,7 @@ def on_a_link_to_itself(place):
     return b'base = "loop"\n'
 
 
-CASES = {way.__name__: way for way in (large, nested, a_long_key, many_faults, on_itself, on_each_other, on_a_long_chain, on_nothing,
+CASES = {way.__name__: way for way in (large, nested, nested_tables, a_long_key, a_deep_key, a_deep_header, many_faults, on_itself, on_each_other, on_a_long_chain, on_nothing,
                                        on_a_pipe, on_a_link_to_itself)}
 
 

@@ -3,7 +3,7 @@ second is empty where it is."""
 
 import shutil
 
-from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, reading, scarce, surroundings, threads
+from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, ranks, reading, scarce, surroundings, threads
 from faults_tried.bench import PATIENCE, SAMPLE, NotTried, TableError, refused
 
 
@@ -103,6 +103,6 @@ def locales(bench, entry):
 
 KINDS = {kind.__name__: kind for kind in (
     bad_values, contradictions, bad_files, no_programs, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
-    interrupted.failing_calls, interrupted.signals_at_calls, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
+    interrupted.failing_calls, interrupted.signals_at_calls, ranks.signals_to_ranks, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
     directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, hostile.hostile,
     hostile.odd_cases, hostile.own_files, orders.orders, orphans.orphans, orphans.ended_children, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

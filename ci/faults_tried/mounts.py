@@ -24,7 +24,7 @@ def tmpfs(directory, kilobytes):
     try:
         yield directory
     finally:
-        subprocess.run(["umount", "--lazy", str(directory)], check=True)
+        subprocess.run(["umount", "--lazy", str(directory)], check=True, capture_output=True)
 
 
 def full_tmpfs(bench, entry):

@@ -7,7 +7,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from faults_tried.bench import NotTried, TableError
+from faults_tried.bench import NotTried, TableError, told_of_our_end
 
 START = 180.0  # seconds until the program has started another
 REPORT = 900.0  # seconds until it has said what it made of that
@@ -48,7 +48,7 @@ def ended_in_the_midst(command, place, child, number, root):
     """Why something was left of a command that got the signal once a process with `child` in its command was there."""
     with open(place / "said", "w") as said:
         running = subprocess.Popen([str(part) for part in command], cwd=root, stdin=subprocess.DEVNULL, stdout=said,
-                                   stderr=said, preexec_fn=as_from_a_terminal)
+                                   stderr=said, preexec_fn=told_of_our_end(as_from_a_terminal))
 
     def begun():
         return running.poll() is not None or any(child in words for pid, words in processes_of(place).items()
@@ -76,7 +76,7 @@ def ended_children(bench, entry):
         place = bench.place()
         (place / "checks.toml").write_text(entry.get("checks", ""))
         running = subprocess.Popen(bench.filled(entry["command"], work=place), cwd=bench.root, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, preexec_fn=told_of_our_end())
 
         def children():
             return [pid for pid, words in processes_of(place).items() if pid != running.pid and entry["starts"] in words]

@@ -9,7 +9,7 @@ import time
 
 import h5py
 
-from faults_tried.bench import TableError, refused
+from faults_tried.bench import TableError, refused, told_of_our_end
 
 
 class SmallRun:
@@ -31,9 +31,9 @@ class SmallRun:
     def go(self, out, *words, sets=(), **options):
         return self.bench.call(self.command(out, *words, sets=sets), **{"patience": 600.0, **options})
 
-    def start(self, out, *words, command=None, stderr=subprocess.DEVNULL, **options):
+    def start(self, out, *words, command=None, stderr=subprocess.DEVNULL, preexec_fn=None):
         return subprocess.Popen(command or self.command(out, *words), cwd=self.bench.root, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.DEVNULL, stderr=stderr, **options)
+                                stdout=subprocess.DEVNULL, stderr=stderr, preexec_fn=told_of_our_end(preexec_fn))
 
     def go_on(self, out):
         """Resumed where there is a run; begun anew where there is none."""

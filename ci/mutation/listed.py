@@ -12,9 +12,9 @@ applies.
 
 import hashlib
 import re
-import tomllib
 from dataclasses import dataclass
 
+from granvof_files import toml_of
 from mutation import cpp
 
 FIELDS = {"was", "now", "after", "why"}
@@ -56,7 +56,7 @@ def read(directory):
     found = []
     for path in sorted(directory.glob("*.toml")):
         try:
-            table = tomllib.loads(path.read_text(encoding="utf-8"))
+            table = toml_of(path)
         except (OSError, ValueError) as error:
             raise ListError(f"{path}: {' '.join(str(error).split())}") from error
         for file, entries in table.items():

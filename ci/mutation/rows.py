@@ -2,6 +2,7 @@
 a row changes its verdict. A row counts once every run that it reads is as it would be with the fault in the whole
 project: between a run with it and one without, any fault shows. Rows of what a run costs say how busy the machine is."""
 
+import hashlib
 import os
 import shutil
 import subprocess
@@ -11,35 +12,38 @@ from collections import Counter
 from granvof_files import json_of, write_json
 from mutation import process
 
-DEAREST, ALL = 4.0, 60.0  # core-seconds of a run, and of all that are tried, by the kept costs
+DEAREST, ALL = 2.5, 45.0  # core-seconds of a run, and of all that are tried, by the kept costs
 
 
 class Rows:
     """The runs that are cheap enough, made without a fault, and the verdicts that follow."""
 
-    def __init__(self, tree, work, scratch, dearest=DEAREST, budget=ALL):
-        self.tree, self.work, self.scratch = tree, work, scratch
+    def __init__(self, tree, work, scratch, dearest=DEAREST, budget=ALL, made=None):
+        """`made`: a directory of runs that `make verify` has made: the dearer ones are taken from there as they are, for faults
+        of what judges them."""
+        self.tree, self.work, self.scratch, self.made = tree, work, scratch, made
         self.build = tree / "build/release"
         self.solver, self.compare = self.build / "solver/granvof", self.build / "compare/granvof-compare"
         self.dearest, self.budget = dearest, budget
-        self.runs, self.reached, self.seconds = [], {}, {}
+        self.runs, self.others, self.reached, self.seconds = [], [], {}, {}
         self.reads = {}  # of a row: the run it judges, and the one it is judged against, if any
         self.noticed = Counter()  # faults that each run has noticed in this call
 
     def plan(self):
-        """(id, case, overrides) of the runs, cheapest first."""
+        """(id, case, overrides) of the runs, cheapest first; and the ids of the others."""
         said = subprocess.run([self.compare, "plan", "--frequency", "verify"], cwd=self.tree, check=True,
                               stdout=subprocess.PIPE, text=True).stdout
         kept = json_of(self.tree / "compare/kept/verify/results.json")["costs"]
         planned = [(fields[0], fields[1], fields[2:]) for fields in (line.split("\t") for line in said.splitlines())]
-        cost = {run[0]: kept[run[0]]["core_seconds"] for run in planned if run[0] in kept}
+        # a run that nothing was kept of yet is new, and tried
+        cost = {run[0]: kept[run[0]]["core_seconds"] if run[0] in kept else 0.0 for run in planned}
         chosen, spent = [], 0.0
-        for run in sorted((run for run in planned if run[0] in cost), key=lambda run: cost[run[0]]):
+        for run in sorted(planned, key=lambda run: cost[run[0]]):
             spent += cost[run[0]]
             if cost[run[0]] > self.dearest or spent > self.budget:
                 break
             chosen.append(run)
-        return chosen
+        return chosen, [run[0] for run in planned if run not in chosen]
 
     def make(self, run, directory, time_limit, environment):
         identity, case, overrides = run
@@ -51,8 +55,8 @@ class Rows:
     def verdicts(self, runs, environment, out):
         """{id of a row: verdict} of the runs in that directory; None where there is no comparison."""
         shutil.rmtree(out, ignore_errors=True)
-        ended = process.run([self.compare, "check", "--runs", runs, "--leave-out", "canary", "--out", out], self.tree, 300.0,
-                            self.scratch, environment)
+        ended = process.run([self.compare, "check", "--runs", runs, "--leave-out", "canary", "--out", out], self.tree,
+                            process_limit(self.seconds.get("check", 30.0)), self.scratch, environment)
         if ended.code not in (0, 1):
             return None
         rows = [row for row in json_of(out / "results.json")["results"] if row["reference_kind"] != "aim"]
@@ -69,8 +73,9 @@ class Rows:
     def without_fault(self, say):
         """Makes the runs and judges them; what was found for the same programs is taken as it is. What is wrong, else ''."""
         kept = self.work / "rows.json"
-        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, self.dearest, self.budget]
-        self.runs = self.plan()
+        table = hashlib.sha1((self.tree / "compare/checks.toml").read_bytes()).hexdigest()
+        stamp = [self.solver.stat().st_mtime_ns, self.compare.stat().st_mtime_ns, table, self.dearest, self.budget, str(self.made)]
+        self.runs, self.others = self.plan()
         base = self.work / "runs"
         if kept.exists():
             before = json_of(kept)
@@ -87,6 +92,9 @@ class Rows:
             if ended.code != 0:
                 return f"the run {run[0]} fails without a fault: {ended.how}"
             say(f"without a fault: {run[0]}, {self.seconds[run[0]]:.1f} s")
+        for name in self.others:
+            if self.made and (self.made / name).is_dir():
+                os.symlink((self.made / name).resolve(), base / name)
         begun = time.monotonic()
         self.base, self.reached["check"] = self.traced(lambda environment: self.verdicts(base, environment, self.work / "verdicts"))
         self.seconds["check"] = round(time.monotonic() - begun, 2)
@@ -105,8 +113,8 @@ class Rows:
         place = self.work / "with-fault"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
-        for run in self.runs:
-            os.symlink(self.work / "runs" / run[0], place / run[0])
+        for path in (self.work / "runs").iterdir():
+            os.symlink(path.resolve(), place / path.name)
         if mutant.number in self.reached["check"]:
             changed = self.changed(place, environment, due)
             if changed:

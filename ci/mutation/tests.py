@@ -1,12 +1,11 @@
 """The tests of the copy as CTest lists them, what each takes and which faults each reaches, and who notices a fault."""
 
-import json
 import subprocess
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from granvof_files import json_of, write_json
+from granvof_files import json_in, json_of, write_json
 from mutation import process
 
 LADDERS = {"unit": "unit", "verification": "ladder"}  # label of a test -> whom it belongs to
@@ -29,9 +28,9 @@ class Test:
 
 def listed(build):
     """Tests of CTest with a known label, in its order."""
-    said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE).stdout
+    said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE, text=True).stdout
     found = []
-    for entry in json.loads(said)["tests"]:
+    for entry in json_in(said)["tests"]:
         properties = {item["name"]: item["value"] for item in entry.get("properties", [])}
         ladder = next((LADDERS[label] for label in properties.get("LABELS", []) if label in LADDERS), None)
         if ladder is None or "command" not in entry:

@@ -60,10 +60,11 @@ def write(root, tree, places):
     return written
 
 
-def build(tree, jobs):
+def build(tree, jobs, programs_alone=False):
     """Exit code of configuring and building the copy. Faults make odd code: warnings are no errors there."""
     environment = {key: value for key, value in os.environ.items() if key not in ("CI", "GRANVOF_MUTANT")} | {"JOBS": str(jobs)}
-    return subprocess.run(["ci/build", "release"], cwd=tree, env=environment).returncode
+    command = ["ci/build", *(["--programs"] if programs_alone else []), "release"]
+    return subprocess.run(command, cwd=tree, env=environment).returncode
 
 
 class Altered:

@@ -43,9 +43,12 @@ def stand_ins(tmp_path, shell):
     compare = tree / "build/release/compare/granvof-compare"
     compare.write_text("#!/usr/bin/python3\n" + STANDS_FOR_COMPARE)
     compare.chmod(0o755)
-    costs = {name: {"core_seconds": cost} for name, cost in (("s2", 1.0), ("s1", 0.5), ("dear", 1e3))}
+    costs = {name: {"core_seconds": cost} for name, cost in (("s2", 1.0), ("dear", 1e3))}
     (tree / "compare/kept/verify/results.json").write_text(json.dumps({"costs": costs}))
-    made = rows.Rows(tree, tmp_path / "work", tmp_path)
+    (tree / "compare/checks.toml").write_text("rows")
+    (tmp_path / "verified/dear").mkdir(parents=True)
+    (tmp_path / "verified/dear/value").write_text("1")
+    made = rows.Rows(tree, tmp_path / "work", tmp_path, made=tmp_path / "verified")
     said = []
     assert made.without_fault(said.append) == ""
     return made, said
@@ -66,10 +69,18 @@ class Numbered:
 
 
 def test_rows_try_the_cheap_runs_in_order_of_their_cost(stand_ins):
-    made, said = stand_ins
+    made, said = stand_ins  # nothing is kept of s1, which is new
     assert [run[0] for run in made.runs] == ["s1", "s2"]
     assert [line.split(": ")[1].split(",")[0] for line in said] == ["s1", "s2"]
-    assert made.base == {"s1.row": "agrees", "s2.row": "agrees"}
+    assert made.base == {"s1.row": "agrees", "s2.row": "agrees", "dear.row": "agrees"}  # as make verify has made it
+
+
+def test_what_was_found_without_a_fault_is_for_one_table_of_checks(stand_ins):
+    made, said = stand_ins
+    said.clear()
+    assert made.without_fault(said.append) == "" and said == []
+    (made.tree / "compare/checks.toml").write_text("other rows")
+    assert made.without_fault(said.append) == "" and len(said) == 2
 
 
 def test_the_row_that_changes_is_named(stand_ins):
@@ -81,7 +92,8 @@ def test_the_row_that_changes_is_named(stand_ins):
 def test_a_fault_of_the_comparison_makes_no_run_again(stand_ins):
     made, _ = stand_ins
     (made.tree / "build/release/solver/granvof").unlink()
-    assert made.judge(Numbered("00000002")) == ("noticed", "s1.row: agrees -> differs")
+    made.base["s1.row"] = made.base["s2.row"] = "differs"  # as if no cheap run told of it
+    assert made.judge(Numbered("00000002")) == ("noticed", "dear.row: agrees -> differs")
 
 
 def test_a_run_that_fails_is_noticed_and_what_nothing_reaches_is_said(stand_ins):

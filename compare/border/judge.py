@@ -2,13 +2,12 @@
 
 import csv
 import threading
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 from engine.client import BAD_INPUT, CPU_LIMIT, FINISHED, SIGNAL, order
 
-from granvof_files import required
+from granvof_files import required, toml_in
 
 # Classes of an outcome, from good to bad. The last is the one that must not exist: wrong, and no monitor says so.
 HOLDS, COLLAPSE, BLOW_UP, DETECTED, UNDETECTED = (
@@ -56,7 +55,7 @@ class Runner:
         apart = DETECTED if record["warnings"] else UNDETECTED
         if not outcome.holds:
             return outcome
-        numerics = tomllib.loads(record["resolved_case"])["numerics"]
+        numerics = toml_in(record["resolved_case"])["numerics"]
         refined = overrides + [f"numerics.{key}={0.5 * numerics[key]:.9g}" for key in ("cfl", "dt_max")]
         finer = self.run(scene.case, refined, name + "-half-step")
         if finer.kind == CPU_LIMIT:

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "compare/checks/last_instant.hpp"
+#include "compare/checks/start_state.hpp"
 #include "compare/checks/whole_run.hpp"
 #include "compare/input/curves.hpp"
 #include "compare/input/shared_ledger.hpp"
@@ -13,14 +15,12 @@
 #include "compare/metrics/bed_slope.hpp"
 #include "compare/metrics/decay_rate.hpp"
 #include "compare/metrics/deposit_shape.hpp"
-#include "compare/metrics/fluid_pressure.hpp"
 #include "compare/metrics/immersion.hpp"
 #include "compare/metrics/period.hpp"
 #include "compare/metrics/power_law.hpp"
 #include "compare/metrics/run_out.hpp"
 #include "compare/metrics/series_difference.hpp"
 #include "compare/metrics/toe_drift.hpp"
-#include "solver/output/fields_file.hpp"
 
 namespace granvof::compare {
 
@@ -196,28 +196,24 @@ Measured energy_share(const Run& run, const Parameters& p, const FindRun&) {
                   "no energy budget in the series, or nothing released in the window");
 }
 
+Measured granular_temperature_at(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("theta_max"), *p.at), "no grains at that time");
+}
+
+Measured kinetic_energy_of_grains(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(value_at(run.curve("kinetic_energy_solid"), *p.at), "no grains at that time");
+}
+
+Measured power(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(power_of(run, *p.term, *p.window), "no energy budget in the series, or not all the window");
+}
+
 Measured interface_height_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run.curve("interface_height"), *p.at), "no interface at that time");
 }
 
 Measured liquid_front_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(scaled_liquid_front(run), *p.at), "no liquid front at that tau");
-}
-
-// --- pressure of the last instant ------------------------------------------------------------------------
-
-Measured of_last_fields(const Run& run, double (*measure)(const CellFields&, const Scene&)) {
-  const std::size_t instants = run.field_times().size();
-  if (instants == 0) return {std::nullopt, "undefined: no fields"};
-  return {measure(read_fields(run.directory / "fields.h5", instants - 1), run.scene), ""};
-}
-
-Measured hydrostatic(const Run& run, const Parameters&, const FindRun&) {
-  return of_last_fields(run, hydrostatic_distance);
-}
-
-Measured ergun(const Run& run, const Parameters&, const FindRun&) {
-  return of_last_fields(run, ergun_ratio);
 }
 
 // --- the same run otherwise stated ------------------------------------------------------------------------
@@ -230,6 +226,12 @@ Measured difference_of_series(const Run& run, const Parameters& p, const FindRun
   const std::string where =
       found->column.empty() ? "" : fmt::format("in {} at T = {:.4g}", found->column, found->time);
   return {found->largest, where};
+}
+
+Measured start(const Run& run, const Parameters&, const FindRun&) {
+  const auto found = start_distance(run);
+  if (!found) return {std::nullopt, "undefined: not a box of grains and a level of liquid on faces of cells"};
+  return {found->largest, found->column.empty() ? "" : "in " + found->column};
 }
 
 constexpr Needs none{};
@@ -309,6 +311,11 @@ constexpr std::array table{
                 "what a term of the energy takes of the potential energy released in a window of T, in terms "
                 "that DEM-VOF counts alike",
                 Needs{.window = true, .term = true}, energy_share},
+    MetricEntry{"power", "W/m3",
+                "what a term of the energy takes in a window, a second and volume of the tank",
+                Needs{.window = true, .term = true}, power},
+    MetricEntry{"granular_temperature", "m2/s2", "largest Theta where f_s >= 0.1 f_s,min at t = at", at_only,
+                granular_temperature_at},
     MetricEntry{"interface_height", "m", "height of alpha = 0.5 in the profile over the tank at t = at",
                 at_only, interface_height_at},
     MetricEntry{"liquid_front", "-", "x / a of the water front at tau = at", at_only, liquid_front_at},
@@ -322,6 +329,19 @@ constexpr std::array table{
         none, hydrostatic},
     MetricEntry{"ergun_ratio", "-",
                 "pressure that a bed takes from the flow through it, over Ergun's, at the end", none, ergun},
+    MetricEntry{"bed_weight_distance", "-",
+                "largest distance of P_s from the weight of the grains above, over its largest, at the end",
+                none, bed_weight},
+    MetricEntry{"start_distance", "-",
+                "largest distance of a column at the start from what the scene says it is, over the latter",
+                none, start},
+    MetricEntry{"kinetic_energy", "J", "of the mean motion of the grains at t = at", at_only,
+                kinetic_energy_of_grains},
+    MetricEntry{"solid_pressure", "Pa", "mean P_s of the cells with grains at the end", none, solid_pressure},
+    MetricEntry{"asymmetry", "-",
+                "largest difference of f_s or alpha between a cell and its mirror image in x, at the end",
+                none, asymmetry},
+    MetricEntry{"settling_slip", "m/s", "u_c - u_s along y at mid-height at the end", none, settling_slip},
     MetricEntry{"solid_volume_error", "-", "largest relative change of the solid volume", none,
                 solid_volume_error},
     MetricEntry{"liquid_volume_error", "-", "largest relative change of the liquid volume", none,

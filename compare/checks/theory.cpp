@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/checks/homogeneous.hpp"
 #include "solver/scene/gravity.hpp"
 
 namespace granvof::compare {
@@ -56,6 +57,15 @@ std::optional<double> triangle_flat_top(const Run&, const Parameters&) {
   return 0.05 / 0.95;
 }
 
+// Of a heap whose face leans back from its foot: a length l less its part of h / tan(slope).
+std::optional<double> heap_flat_top(const Run& run, const Parameters&) {
+  const auto& bed = run.scene.bed;
+  if (!bed || bed->slope >= 90.0) return std::nullopt;
+  const double length = bed->box.upper[0] - bed->box.lower[0], high = bed->box.upper[1] - bed->box.lower[1];
+  const double face = high / std::tan(bed->slope * std::numbers::pi / 180.0);
+  return (length - 0.95 * face) / (length - 0.05 * face);
+}
+
 std::optional<double> film_speed(const Run& run, const Parameters&) {
   const Scene& scene = run.scene;
   const double depth = scene.tank[1], y = depth - 0.5 * scene.grid.spacing[1];
@@ -78,7 +88,59 @@ std::optional<double> sloshing_period(const Run& run, const Parameters&) {
   return 2.0 * std::numbers::pi / std::sqrt(omega_squared);
 }
 
-constexpr std::array<FormulaEntry, 8> table{{
+std::optional<double> settling_slip(const Run& run, const Parameters&) {
+  return printed_settling_slip(run.scene);
+}
+
+std::optional<double> even_shear_temperature(const Run& run, const Parameters&) {
+  const auto even = printed_even_shear(run.scene);
+  return even ? std::optional(even->theta) : std::nullopt;
+}
+
+std::optional<double> even_shear_pressure(const Run& run, const Parameters&) {
+  const auto even = printed_even_shear(run.scene);
+  return even ? std::optional(even->pressure) : std::nullopt;
+}
+
+// Of a term of the energy: what the walls give is all that the others take, and Theta from nothing.
+std::optional<double> even_shear_power(const Run& run, const Parameters& p) {
+  const auto even = printed_even_shear(run.scene);
+  if (!even || !p.term) return std::nullopt;
+  const Box& bed = run.scene.bed->box;
+  const double share =
+      (bed.upper[1] - bed.lower[1]) / run.scene.tank[1];  // of the tank, the rest is obstacle
+  if (*p.term == "contacts") return share * even->contacts;
+  if (*p.term == "drag") return share * even->drag;
+  if (*p.term == "agitation" && p.window) return share * even->energy / (p.window->end - p.window->begin);
+  if (*p.term == "viscosity") return share * even->fluid;
+  if (*p.term == "walls") return -share * (even->contacts + even->drag + even->fluid);
+  return std::nullopt;
+}
+
+// Of a block on a Coulomb floor, from rest: down the slope, or taken along by a floor that moves.
+std::optional<double> sliding_speed_after(const Run& run, double time) {
+  const Side& floor = run.scene.sides[bottom];
+  if (floor.solid.kind != WallKind::coulomb) return std::nullopt;
+  const Vec3 g = gravity_of(run.scene);
+  const double friction = floor.solid.friction * normal_gravity(run.scene);
+  const double taken = floor.velocity[0] > 0.0 ? friction : -friction;
+  return (g[0] + taken) * time;
+}
+
+std::optional<double> sliding_speed(const Run& run, const Parameters& p) {
+  return p.window ? sliding_speed_after(run, p.window->end) : std::nullopt;
+}
+
+std::optional<double> sliding_energy(const Run& run, const Parameters& p) {
+  const auto speed = p.at ? sliding_speed_after(run, *p.at) : std::nullopt;
+  if (!speed || !run.scene.bed) return std::nullopt;
+  const Box& bed = run.scene.bed->box;
+  const double grains = run.scene.bed->solid_fraction * (bed.upper[0] - bed.lower[0]) *
+                        (bed.upper[1] - bed.lower[1]) * run.scene.tank[2];
+  return 0.5 * run.scene.solid.density * grains * *speed * *speed;
+}
+
+constexpr std::array<FormulaEntry, 15> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
@@ -95,10 +157,27 @@ constexpr std::array<FormulaEntry, 8> table{{
      floating_decay_rate},
     {"triangle_flat_top", "-", "a triangle's share within 5 % of its tip of the length above 5 % of it",
      triangle_flat_top},
+    {"heap_flat_top", "-",
+     "the same of a heap as it is set up: (l - 0.95 b) / (l - 0.05 b), b = h / tan(slope) the length of its "
+     "face",
+     heap_flat_top},
     {"solid_fraction_max", "-", "f_s,max of (13)", solid_fraction_max},
     {"film_speed", "m/s",
      "u = rho g sin(theta) / mu (h y - y^2 / 2) at the uppermost cells' centres (Nusselt 1916)", film_speed},
     {"channel_speed", "m/s", "3/2 of the mean speed between plates (Poiseuille)", channel_speed},
+    {"sliding_speed", "m/s",
+     "(g sin(theta) - mu_w g cos(theta)) t, a block down a Coulomb floor; mu_w g t, on one that moves "
+     "(Coulomb)",
+     sliding_speed},
+    {"sliding_energy", "J", "1/2 m v^2 of that block", sliding_energy},
+    {"settling_slip", "m/s",
+     "w of beta w = f_s f_c (rho_s - rho_c) g, beta of the scene's drag law as published", settling_slip},
+    {"even_shear_temperature", "m2/s2", "Theta of steady even shear: production = collisions + drag, (7)",
+     even_shear_temperature},
+    {"even_shear_pressure", "Pa", "P_s of steady even shear, (11) to (15), and that of viscous contacts",
+     even_shear_pressure},
+    {"even_shear_power", "W/m3",
+     "of steady even shear: (17), (20), (23), 3 beta Theta, and the fluid's viscosity", even_shear_power},
 }};
 
 }  // namespace

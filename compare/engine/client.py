@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "ci"), str(ROOT / "solver/python")]
 
-from granvof_files import json_of  # noqa: E402
+from granvof_files import json_in, json_of  # noqa: E402
 from night.together import ends_with_parent  # noqa: E402
 
 FINISHED, BAD_INPUT, SIGNAL, CPU_LIMIT, TIME_LIMIT = "finished", "bad input", "signal", "CPU limit", "time limit"
@@ -111,7 +111,7 @@ class Engine:
         said = ""
         try:
             for line in self.process.stdout:
-                self._take(json.loads(line))
+                self._take(json_in(line))
         except (ValueError, KeyError, TypeError):  # no engine, or one that was killed within a line
             self.process.terminate()
             said = f"{self.process.args[0]} does not speak as a run engine: {line.strip()[:200]}"

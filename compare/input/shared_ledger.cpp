@@ -67,16 +67,29 @@ Curve shared_term(const Run& run, std::string_view term) {
   return sum;
 }
 
+namespace {
+
+// How much a term grows between two times [J].
+std::optional<double> gained(const Run& run, std::string_view term, Window times) {
+  const Curve curve = shared_term(run, term);
+  const auto begin = value_at(curve, times.begin), end = value_at(curve, times.end);
+  if (!begin || !end) return std::nullopt;
+  return *end - *begin;
+}
+
+}  // namespace
+
 std::optional<double> share_of_released(const Run& run, std::string_view term, Window times) {
-  const auto gained = [&](std::string_view name) -> std::optional<double> {
-    const Curve curve = shared_term(run, name);
-    const auto begin = value_at(curve, times.begin), end = value_at(curve, times.end);
-    if (!begin || !end) return std::nullopt;
-    return *end - *begin;
-  };
-  const auto released = gained("released"), taken = gained(term);
+  const auto released = gained(run, "released", times), taken = gained(run, term, times);
   if (!released || !taken || !(*released > 0.0)) return std::nullopt;
   return *taken / *released;
+}
+
+std::optional<double> power_of(const Run& run, std::string_view term, Window times) {
+  const auto taken = gained(run, term, times);
+  const double seconds = times.end - times.begin;
+  if (!taken || !(seconds > 0.0)) return std::nullopt;
+  return *taken / (seconds * run.scene.tank[0] * run.scene.tank[1] * run.scene.tank[2]);
 }
 
 }  // namespace granvof::compare

@@ -24,4 +24,8 @@ Curve shared_term(const Run& run, std::string_view term);
 // is, or where the run does not cover them.
 std::optional<double> share_of_released(const Run& run, std::string_view term, Window times);
 
+// What a term takes between two times [s], a second and a volume of the tank: [W/m3]; nothing where the run
+// does not cover them.
+std::optional<double> power_of(const Run& run, std::string_view term, Window times);
+
 }  // namespace granvof::compare

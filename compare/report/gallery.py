@@ -2,12 +2,11 @@
 trust_table.py writes."""
 
 import io
-import tomllib
 from collections import Counter
 
 from PIL import Image, ImageOps
 
-from granvof_files import required, write_whole
+from granvof_files import toml_of, write_whole
 from report import film, results
 
 PICTURES = "docs/gallery"
@@ -18,7 +17,7 @@ LEAST_ACROSS = 40  # pixels of a column of few cells
 
 def cases_of(root):
     """{id of a run: its case}, in the order of the table of checks."""
-    table = tomllib.loads(required(root / "compare/checks.toml").read_text(encoding="utf-8"))
+    table = toml_of(root / "compare/checks.toml")
     return {run["id"]: run.get("case") or run.get("beside") or run["id"] for run in table["run"]}
 
 
@@ -27,7 +26,7 @@ def picture_of(case):
 
 
 def title_of(root, case):
-    return tomllib.loads(required(root / f"cases/{case}.toml").read_text(encoding="utf-8"))["scene"]["title"]
+    return toml_of(root / f"cases/{case}.toml")["scene"]["title"]
 
 
 def shown_run(case, runs):

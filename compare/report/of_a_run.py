@@ -1,14 +1,13 @@
 """Film, plots and a page of any run directory: `compare/show DIR...`. Needs no table of checks and no other run."""
 
 import math
-import tomllib
 from pathlib import Path
 
 import jinja2
 import numpy as np
 
 import granvof
-from granvof_files import required, write_whole
+from granvof_files import OF_READING, required, toml_in, write_whole
 from report import snapshots, states, style
 from report.embedded import encoded
 from report.film import caption, film
@@ -27,13 +26,38 @@ FACTS = ("version", "start_date", "cells", "steps", "simulated_time", "core_seco
 def scene_of(facts):
     """What the pictures need of a scene, from the resolved case that a run.json holds. Raises granvof.NotARun."""
     try:
-        case = tomllib.loads(facts["resolved_case"])
+        case = toml_in(facts["resolved_case"])
         tank, bed = case["tank"], case.get("bed", {})
         scaled = case["time"].get("unit") == "column"
-        return {"title": facts["title"], "tank": [*tank["size"], tank.get("depth", 1.0)][:3], "dimensions": case["scene"]["dimensions"],
-                "cells": facts["grid"]["cells"], "spacing": facts["grid"]["spacing"],
-                "time_unit": math.sqrt(bed["height"] / tank["gravity"]) if scaled else 1.0}
-    except (KeyError, TypeError, ValueError) as error:
+        scene = {"title": text(facts["title"]), "tank": [*tank["size"], tank.get("depth", 1.0)][:3], "dimensions": case["scene"]["dimensions"],
+                 "cells": facts["grid"]["cells"], "spacing": facts["grid"]["spacing"],
+                 "time_unit": math.sqrt(bed["height"] / tank["gravity"]) if scaled else 1.0}
+        for lengths in (scene["tank"], scene["cells"], scene["spacing"], [scene["time_unit"]] * 3):
+            if len(lengths) != 3 or not all(0.0 < length < math.inf for length in lengths):
+                raise ValueError("tank, cells, spacing or unit of time are no lengths")
+        return scene
+    except OF_READING as error:
+        raise granvof.NotARun(f"run.json: {type(error).__name__}: {error}") from error
+
+
+def text(value):
+    if not isinstance(value, str):
+        raise ValueError(f"{type(value).__name__} given, not a text")
+    return value
+
+
+def said_of(facts, directory):
+    """What the page says of a run: its entry as of a comparison, what was warned of, and a table. Raises granvof.NotARun."""
+    try:
+        host = facts.get("host") or {}
+        entry = {"id": text(facts.get("scene", directory.name)), "case": facts.get("scene", directory.name),
+                 "case_hash": text(facts.get("case_hash", "")), "version": text(facts.get("version", "")),
+                 "commit": text(facts.get("git_commit", "")), "host": text(host.get("cpu_model", ""))}
+        if Path(entry["id"]).name != entry["id"]:
+            raise ValueError(f"'{entry['id']}' is no name of a scene")
+        table = [(what.replace("_", " "), shortened(facts[what])) for what in FACTS if facts.get(what) is not None]
+        return entry, warnings_of(facts), table + model_of(facts)
+    except OF_READING as error:
         raise granvof.NotARun(f"run.json: {type(error).__name__}: {error}") from error
 
 
@@ -62,13 +86,11 @@ def show(directory):
     run = granvof.load(directory, fields=False)
     if not run.facts:
         raise granvof.NotARun(f"{run.directory}: there is no run.json")
-    scene, name = scene_of(run.facts), run.facts.get("scene", run.directory.name)
-    out = run.directory / "report"
+    scene = scene_of(run.facts)
+    described, warnings, table = said_of(run.facts, run.directory)
+    name, out = described["id"], run.directory / "report"
     entry = {"scene": scene, "directory": str(run.directory)}
-    results = Results(out, "", "verify", [], {name: {"id": name, "case": name, "case_hash": run.facts.get("case_hash", ""),
-                                                      "version": run.facts.get("version", ""), "commit": run.facts.get("git_commit", ""),
-                                                      "host": (run.facts.get("host") or {}).get("cpu_model", "")
-                                                      if isinstance(run.facts.get("host"), dict) else ""}})
+    results = Results(out, "", "verify", [], {name: described})
     results.curves = {name: entry}
     plots = series_plots(run, out)
     plane = "mid-plane of the tank" if scene["dimensions"] == 3 else "the slice"
@@ -84,8 +106,7 @@ def show(directory):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, undefined=jinja2.StrictUndefined)
     page = out / "report.html"
     write_whole(page, environment.get_template("run_page.html").render(
-        name=name, title=scene["title"], figures=figures, resolved=run.facts["resolved_case"], warnings=warnings_of(run.facts),
-        facts=[(what.replace("_", " "), shortened(run.facts[what])) for what in FACTS if run.facts.get(what) is not None] + model_of(run.facts)))
+        name=name, title=scene["title"], figures=figures, resolved=run.facts["resolved_case"], warnings=warnings, facts=table))
     return page
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from granvof_files import fields_of, is_there, json_of, required
+from granvof_files import OF_READING, fields_of, is_there, json_of, required, values_of
 
 
 class Damaged(ValueError):
@@ -13,10 +13,6 @@ class Damaged(ValueError):
 
     def __init__(self, path, error):
         super().__init__(f"{path} cannot be shown: " + " ".join(f"{type(error).__name__}: {error}".split()))
-
-
-# What reading a file that others wrote may raise.
-OF_READING = (OSError, ValueError, KeyError, IndexError, TypeError, AttributeError, RuntimeError)
 
 
 def read_json(path, *needed):
@@ -185,7 +181,7 @@ def instants(run, names=("f_s", "alpha", "phi")):
         with fields_of(path) as file:
             groups = [file[name] for name in file if "f_s" in file[name]]
             for group in sorted(groups, key=lambda g: float(g.attrs["time"])):
-                yield float(group.attrs["time"]), tuple(np.asarray(group[name]) if name in group else None
+                yield float(group.attrs["time"]), tuple(values_of(group[name]) if name in group else None
                                                         for name in names)
     except OF_READING as error:
         raise Damaged(path, error) from error

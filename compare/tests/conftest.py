@@ -127,3 +127,69 @@ def reported(tmp_path_factory):
     (directory.parent / "faults/faults.json").write_text(json.dumps(section))
     assert report.main(["--verify", str(directory), "--kept", str(directory / "nothing")]) == 0
     return directory
+
+
+def fill_instant(group):
+    group.attrs["time"] = 0.0
+    for name in ("f_s", "alpha", "p_c", "theta", "phi"):
+        group[name] = np.zeros((2, 3, 4))
+    group["u_s"] = group["u_c"] = np.zeros((2, 3, 4, 3))
+
+
+@pytest.fixture
+def small_run(tmp_path):
+    """A run directory with one instant."""
+    run = tmp_path / "run"
+    run.mkdir()
+    (run / "series.csv").write_text("time [s],front_dense [m]\n0,0.1\n0.5,0.2\n")
+    (run / "run.json").write_text(json.dumps({"scene": "s1"}))
+    with h5py.File(run / "fields.h5", "w") as file:
+        file.attrs["cells"], file.attrs["spacing"], file.attrs["origin"] = [4, 3, 2], [0.1, 0.2, 0.5], [0.0, 0.0, 0.0]
+        file.attrs["scene"] = np.bytes_("s1")
+        fill_instant(file.create_group("t0000"))
+    return run
+
+
+@pytest.fixture
+def linked_run(small_run):
+    """The run as it is while it goes on: an instant a file."""
+    (small_run / "fields").mkdir()
+    with h5py.File(small_run / "fields/t0000.h5", "w") as piece:
+        fill_instant(piece.create_group("instant"))
+    link_to(small_run, "fields/t0000.h5")
+    return small_run
+
+
+def link_to(run, file_name):
+    with h5py.File(run / "fields.h5", "r+") as file:
+        del file["t0000"]
+        file["t0000"] = h5py.ExternalLink(file_name, "/instant")
+
+
+@pytest.fixture
+def relink():
+    """Leads the instant of a run to another file."""
+    return link_to
+
+
+CASE_TO_SHOW = '[scene]\ndimensions = 2\n[tank]\nsize = [0.12, 0.08]\ngravity = 9.81\n[bed]\nheight = 0.04\n[time]\nunit = "column"\n'
+
+
+@pytest.fixture
+def run_to_show(tmp_path):
+    """A run of six instants with all that compare/show needs."""
+    run = tmp_path / "mine"
+    run.mkdir()
+    (run / "series.csv").write_text("time [s],front_dense [m],p_base [Pa]\n0,0.1,\n0.5,0.2,\n")
+    (run / "run.json").write_text(json.dumps({
+        "scene": "mine", "title": "A <collapse>", "resolved_case": CASE_TO_SHOW,
+        "grid": {"cells": [12, 8, 1], "spacing": [0.01, 0.01, 1.0]},
+        "core_seconds": 2.5, "version": "0.2.0", "exit": {"state": "failed", "reason": "step collapse"}, "warnings": []}))
+    with h5py.File(run / "fields.h5", "w") as file:
+        for place, time in enumerate(np.linspace(0.0, 0.5, 6)):
+            group = file.create_group(f"t{place:04}")
+            group.attrs["time"] = time
+            solid = np.zeros((1, 8, 12))
+            solid[0, :4, :3 + place] = 0.57
+            group["f_s"], group["alpha"] = solid, np.ones_like(solid)
+    return run

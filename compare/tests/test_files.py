@@ -1,7 +1,6 @@
 """What is no file is not opened: by no reader of ours, and not through a link inside an HDF5 file either."""
 
 import ast
-import json
 import os
 import signal
 import stat
@@ -59,36 +58,13 @@ def patience():
     signal.alarm(0)
 
 
-def run_of(path):
-    path.mkdir(exist_ok=True)
-    (path / "series.csv").write_text("time [s],front_dense [m]\n0,0.1\n0.5,0.2\n")
-    (path / "run.json").write_text(json.dumps({"scene": "s1"}))
-    write_fields(path / "fields.h5", lambda file: fill(file.create_group("t0000")))
-    return path
-
-
-def write_fields(path, fill_it):
-    with h5py.File(path, "w") as file:
-        file.attrs["cells"], file.attrs["spacing"], file.attrs["origin"] = [4, 3, 2], [0.1, 0.2, 0.5], [0.0, 0.0, 0.0]
-        file.attrs["scene"] = np.bytes_("s1")
-        fill_it(file)
-
-
-def fill(group):
-    group.attrs["time"] = 0.0
-    for name in ("f_s", "alpha", "p_c", "theta", "phi"):
-        group[name] = np.zeros((2, 3, 4))
-    group["u_s"] = group["u_c"] = np.zeros((2, 3, 4, 3))
-
-
 @pytest.mark.parametrize("kind", NOT_FILES)
 @pytest.mark.parametrize("name", ["series.csv", "run.json", "fields.h5"])
-def test_a_run_of_which_a_file_is_none(tmp_path, name, kind):
-    run = run_of(tmp_path / "run")
-    (run / name).unlink()
-    kind(run / name)
+def test_a_run_of_which_a_file_is_none(small_run, name, kind):
+    (small_run / name).unlink()
+    kind(small_run / name)
     with pytest.raises(granvof.NotARun, match=name):
-        granvof.load(run)
+        granvof.load(small_run)
 
 
 @pytest.mark.parametrize("kind", NOT_FILES)
@@ -109,34 +85,22 @@ def test_other_readers(tmp_path, kind):
         sections.read(tmp_path / "charts")
 
 
-def linked(run):
-    """The run as it is while it goes on: an instant a file."""
-    (run / "fields").mkdir()
-    with h5py.File(run / "fields/t0000.h5", "w") as piece:
-        fill(piece.create_group("instant"))
-    write_fields(run / "fields.h5", lambda file: file.__setitem__("t0000", h5py.ExternalLink("fields/t0000.h5", "/instant")))
-    return run
-
-
 def instants_of(run):
     return list(results.instants({"directory": str(run)}))
 
 
-def test_the_fields_of_a_run_that_goes_on(tmp_path):
-    run = linked(run_of(tmp_path / "run"))
-    assert list(np.asarray(granvof.load(run).fields["time"])) == [0.0] and len(instants_of(run)) == 1
+def test_the_fields_of_a_run_that_goes_on(linked_run):
+    assert list(np.asarray(granvof.load(linked_run).fields["time"])) == [0.0] and len(instants_of(linked_run)) == 1
 
 
 @pytest.mark.parametrize("kind", NOT_FILES)
-def test_a_link_to_what_is_no_file(tmp_path, kind):
-    run = linked(run_of(tmp_path / "run"))
-    (run / "fields/t0000.h5").unlink()
-    kind(run / "fields/t0000.h5")
+def test_a_link_to_what_is_no_file(linked_run, kind):
+    (linked_run / "fields/t0000.h5").unlink()
+    kind(linked_run / "fields/t0000.h5")
     with pytest.raises(granvof.NotARun):
-        granvof.load(run)
+        granvof.load(linked_run)
     with pytest.raises(results.Damaged):
-        instants_of(run)
-
+        instants_of(linked_run)
 
 
 def a_link(group, name, path):
@@ -159,23 +123,21 @@ def virtual(group, name, path):
 
 
 @pytest.mark.parametrize("make", [a_link, a_link_through_another_group, values_beside, virtual])
-def test_values_that_lie_elsewhere(tmp_path, make):
+def test_values_that_lie_elsewhere(small_run, tmp_path, make):
     os.mkfifo(tmp_path / "pipe")
-    run = run_of(tmp_path / "run")
-    with h5py.File(run / "fields.h5", "a") as file:
+    with h5py.File(small_run / "fields.h5", "a") as file:
         del file["t0000/f_s"]
         make(file["t0000"], "f_s", str(tmp_path / "pipe"))
     with pytest.raises(granvof.NotARun):
-        granvof.load(run)
+        granvof.load(small_run)
     with pytest.raises(results.Damaged):
-        instants_of(run)
+        instants_of(small_run)
 
 
-def test_a_link_out_of_the_folder(tmp_path):
-    run = run_of(tmp_path / "run")
-    write_fields(run / "fields.h5", lambda file: file.__setitem__("t0000", h5py.ExternalLink("../run/fields.h5", "/instant")))
+def test_a_link_out_of_the_folder(small_run, relink):
+    relink(small_run, "../run/fields.h5")
     with pytest.raises(granvof.NotARun, match="links to"):
-        granvof.load(run)
+        granvof.load(small_run)
 
 
 def test_a_file_is_one_through_a_link_too(tmp_path):
@@ -253,3 +215,11 @@ def test_every_script_asks_before_it_opens():
     unasked = [f"{name}:{call.lineno}" for name, tree in scripts() for call in ast.walk(tree)
                if isinstance(call, ast.Call) and is_a_read(call) and not is_for_writing(call) and not is_asked(call)]
     assert unasked == []
+
+
+def test_nobody_parses_without_asking_how_deep():
+    """A reader that is added must not fall over depth either: json_in, json_of, toml_in and toml_of ask."""
+    parsed = [f"{name}:{call.lineno}" for name, tree in scripts() for call in ast.walk(tree)
+              if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr in ("load", "loads")
+              and getattr(call.func.value, "id", "") in ("json", "tomllib") and name != "solver/python/granvof_files.py"]
+    assert parsed == []

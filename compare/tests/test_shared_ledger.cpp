@@ -54,6 +54,15 @@ TEST(SharedLedger, AddsWhatBothCodesCountAlike) {
   EXPECT_DOUBLE_EQ(*share_of_released(beads, "drag", {0.0, 0.5}), 0.2);
 }
 
+TEST(SharedLedger, PowerIsASecondAndAVolume) {
+  auto run = continuum;
+  run.scene.tank = {0.5, 0.2, 2.0};
+  EXPECT_DOUBLE_EQ(*power_of(run, "contacts", {0.0, 1.0}), 26.25);
+  EXPECT_DOUBLE_EQ(*power_of(run, "contacts", {0.25, 0.5}), 26.25);
+  EXPECT_FALSE(power_of(run, "contacts", {0.0, 2.0}));
+  EXPECT_FALSE(power_of(run, "contacts", {0.5, 0.5}));
+}
+
 TEST(SharedLedger, IsUndefinedWithoutALedgerOrOutsideTheRun) {
   EXPECT_FALSE(share_of_released(run_of({{"energy_potential", -1.0}}), "drag", {0.0, 1.0}));
   EXPECT_FALSE(share_of_released(beads, "drag", {0.0, 2.0}));

@@ -5,7 +5,8 @@ has them. What these programs do not have is left out and said so: subgrid visco
 """
 import itertools
 import math
-import tomllib
+
+from granvof_files import toml_in
 
 HEADER = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
 SIDES = ("left", "right", "bottom", "top", "front", "back")
@@ -26,7 +27,7 @@ class Tank:
     """Box, grid and liquid of a scene, from the text that `granvof check` prints."""
 
     def __init__(self, resolved, depth=SLICE):
-        self.scene = scene = tomllib.loads(resolved)
+        self.scene = scene = toml_in(resolved)
         self.name = scene["scene"]["name"]
         self.flat = scene["scene"]["dimensions"] == 2
         size, grid = list(scene["tank"]["size"]), scene["grid"]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 REFERENCE = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(REFERENCE))
+sys.path[:0] = [str(REFERENCE), str(REFERENCE.parent / "solver/python")]
 from peers import openfoam_case, parcels  # noqa: E402
 
 POOL = """

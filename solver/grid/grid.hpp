@@ -61,6 +61,13 @@ struct Grid {
       for (const bool upper : {false, true})
         if (side(d, upper).is_open()) visit(d, upper);
   }
+  // The same for those that pass the fluid at a pressure.
+  template <typename Visit>
+  void for_each_passing_side(Visit&& visit) const {
+    for_each_open_side([&](int d, bool upper) {
+      if (side(d, upper).passes_fluid) visit(d, upper);
+    });
+  }
   // Faces of direction d as a box of their own, in the memory of the cells' layout: one more than cells
   // across a side.
   Layout face_layout(int d) const;

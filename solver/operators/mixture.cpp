@@ -19,6 +19,16 @@ void FaceInertia::update(const Grid& grid, const Scene& scene, const Field& f_s_
                       (1.0 - f[c - s]) * mixture(a[c - s], rho_l, rho_g));
     });
   }
+  grid.for_each_passing_side([&](int d, bool upper) {
+    const std::ptrdiff_t s = grid.stride(d), inside = upper ? -s : 0, beyond = upper ? 0 : -s;
+    double *face = f_s[d].data(), *m_s = solid[d].data(), *m_c = fluid[d].data();
+    for_each(grid.cells, grid.side_faces(d, upper), [=](std::ptrdiff_t c) {
+      face[c] = f[c + inside];
+      m_s[c] = f[c + inside] * rho_s;
+      m_c[c] = passing_side_mass((1.0 - f[c + inside]) * mixture(a[c + inside], rho_l, rho_g),
+                                 (1.0 - f[c + beyond]) * mixture(a[c + beyond], rho_l, rho_g));
+    });
+  });
 }
 
 }  // namespace granvof

@@ -1,6 +1,8 @@
 // Density and viscosity of the continuous phase and the inertia of both phases on faces.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/grid/field.hpp"
 
 namespace granvof {
@@ -16,9 +18,16 @@ inline double mixture(double alpha, double liquid, double gas) {
   return alpha * liquid + (1.0 - alpha) * gas;
 }
 
+// f_c rho_c [kg/m3] that the velocity on a side moves which passes the fluid: that of the half cell inside,
+// so that what is beyond adds no weight; the mean where what waits beyond is heavier, which else would come
+// in at the speed that its pressure gives to gas.
+inline double passing_side_mass(double inside, double beyond) {
+  return 0.5 * (inside + std::max(inside, beyond));
+}
+
 // Mass per volume on the faces: f_s rho_s and f_c rho_c [kg/m3], arithmetic means of the two cells (upwind
-// values as inertia blow up, see the numerics notes). Values reach one ghost layer; two of f_s and alpha must
-// be filled.
+// values as inertia blow up, see the numerics notes); on sides that pass the fluid those of the cell inside.
+// Values reach one ghost layer; two of f_s and alpha must be filled.
 struct FaceInertia {
   FaceField f_s;    // solid fraction on faces [-]
   FaceField solid;  // f_s rho_s [kg/m3]

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from granvof_files import fields_of, is_there, json_of, required
+from granvof_files import OF_READING, fields_of, is_there, json_of, required, values_of
 
 try:
     import pandas
@@ -70,7 +70,10 @@ def load(directory, fields=True):
 
 def read_facts(path):
     try:
-        return json_of(path)
+        facts = json_of(path)
+        if not isinstance(facts, dict):
+            raise ValueError("no JSON object")
+        return facts
     except (OSError, ValueError) as error:
         raise NotARun(f"{path}: {error}") from error
 
@@ -85,7 +88,7 @@ def read_series(path):
         values = values.reshape(len(rows) - 1, len(heads))
         columns = {name: values[:, place] for place, (name, _) in enumerate(heads)}
         columns["time"]
-    except (OSError, ValueError, IndexError, KeyError, AttributeError) as error:
+    except OF_READING as error:
         raise NotARun(f"{path}: {error}") from error
     units = {name: unit for name, unit in heads}
     if pandas is None:
@@ -99,20 +102,31 @@ def read_fields(path):
     """All instants of a fields.h5, at the centres of the cells."""
     try:
         with fields_of(path) as file:
-            groups = sorted((group for group in file.values() if "time" in group.attrs), key=lambda group: group.attrs["time"])
-            time = np.array([float(group.attrs["time"]) for group in groups])
-            names = [name for name in FIELDS if groups and all(name in group for group in groups)]
-            data = {name: np.stack([group[name][...] for group in groups]) for name in names}
-            cells, spacing, origin = (np.asarray(file.attrs[name]) for name in ("cells", "spacing", "origin"))
-            title = file.attrs["scene"]
-    except (OSError, KeyError, ValueError, RuntimeError) as error:
+            return _labelled(file)
+    except OF_READING as error:
         raise NotARun(f"{path}: {error}") from error
+
+
+def _labelled(file):
+    times = {float(group.attrs["time"]): group for group in file.values() if "time" in group.attrs}
+    if len(times) < sum("time" in group.attrs for group in file.values()) or not np.isfinite(list(times)).all():
+        raise ValueError("two instants of one time, or one without")
+    time = np.array(sorted(times))
+    groups = [times[instant] for instant in time]
+    cells, spacing, origin = (np.asarray(file.attrs[name]) for name in ("cells", "spacing", "origin"))
+    if not cells.shape == spacing.shape == origin.shape == (3,) or not (spacing > 0.0).all():
+        raise ValueError("cells, spacing and origin are not three each, or no lengths")
+    data = {name: np.stack([values_of(group[name]) for group in groups])
+            for name in FIELDS if groups and all(name in group for group in groups)}
+    if other := [name for name, values in data.items() if values.shape[1:4] != tuple(cells[::-1])]:
+        raise ValueError(f"{other[0]} is not of {' x '.join(map(str, cells))} cells")
     centres = [origin[d] + (np.arange(cells[d]) + 0.5) * spacing[d] for d in range(3)]
     coordinates = {"time": time, "z": centres[2], "y": centres[1], "x": centres[0]}
     if xarray is None:
         return data | coordinates
     described = {name: (("time", "z", "y", "x", "component")[:values.ndim], values,
                         {"units": FIELDS[name][0], "long_name": FIELDS[name][1]}) for name, values in data.items()}
+    title = file.attrs["scene"]
     made = xarray.Dataset(described, coords=coordinates | {"component": ["x", "y", "z"]},
                           attrs={"scene": title.decode() if isinstance(title, bytes) else title, "spacing": spacing})
     for name, unit in (("time", "s"), ("x", "m"), ("y", "m"), ("z", "m")):

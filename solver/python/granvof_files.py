@@ -2,6 +2,7 @@
 device may have no end. Writes results whole or not at all."""
 
 import contextlib
+import csv
 import json
 import os
 import re
@@ -13,6 +14,9 @@ from pathlib import Path
 class NotAFile(OSError):
     """A name that is no regular file, or an HDF5 file that leads to one; says which, and what it is."""
 
+
+# What reading a file that others wrote may raise: no such values, of another kind or shape, too many of them.
+OF_READING = (OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RuntimeError, MemoryError, csv.Error)
 
 KINDS = ((stat.S_ISDIR, "a directory"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"), (stat.S_ISCHR, "a device"),
          (stat.S_ISBLK, "a device"))
@@ -48,10 +52,16 @@ def json_of(path):
     return json_in(required(Path(path)).read_text(encoding="utf-8"))
 
 
+HALF_CHARACTER = re.compile(r"\\u[dD][89a-fA-F]")  # of two, or alone, which is none and cannot be written
+
+
 def json_in(text):
-    """ValueError where it is none, or nested deeper than the parser can follow."""
+    """ValueError where it is none, nested deeper than the parser can follow, or holds what is no character."""
     try:
-        return json.loads(text)
+        content = json.loads(text)
+        if HALF_CHARACTER.search(text):
+            json.dumps(content, ensure_ascii=False).encode()
+        return content
     except RecursionError:
         raise ValueError("it is nested too deeply") from None
 
@@ -63,7 +73,13 @@ KEYS = re.compile(r"[\w. \t-]+")
 
 def toml_of(path):
     """What a TOML file holds; raises as required() and the parser do."""
-    text = required(Path(path)).read_text(encoding="utf-8")
+    return toml_in(required(Path(path)).read_text(encoding="utf-8"))
+
+
+def toml_in(text):
+    """ValueError where it is none, or deeper than the parser can follow."""
+    if not isinstance(text, str):
+        raise ValueError(f"{type(text).__name__} given, not a text")
     if any(run.group().count(".") >= MOST_KEY_PARTS for run in KEYS.finditer(NO_KEY.sub("_", text))):
         raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts")
     try:
@@ -115,6 +131,15 @@ def fields_of(path):
             else:
                 _require_member_inside(file, name, h5py)
         yield file
+
+
+def values_of(dataset):
+    """The values of a field (z, y, x) or of vectors (z, y, x, 3). ValueError where it is none; as much as it says must fit into
+    memory, else MemoryError."""
+    shape = getattr(dataset, "shape", None)
+    if shape is None or len(shape) not in (3, 4) or 0 in shape or dataset.dtype.kind != "f":
+        raise ValueError(f"{dataset.name} is no field of numbers (z, y, x)")
+    return dataset[...]
 
 
 def _require_inside(group, h5py):

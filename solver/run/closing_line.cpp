@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/plausibility/plausibility.hpp"
+
 namespace granvof {
 namespace {
 
@@ -20,12 +22,18 @@ std::string results(const Scene& scene, const Scalars& end) {
   return text.empty() ? "" : text + "; ";
 }
 
-std::string warnings(const RunProgress& progress) {
-  if (progress.warnings.empty()) return "no warnings";
-  std::string names;
-  for (const Warning& warning : progress.warnings) names += (names.empty() ? "" : ", ") + warning.monitor;
-  return fmt::format("{} warning{}: {}", progress.warnings.size(), progress.warnings.size() == 1 ? "" : "s",
-                     names);
+std::string counted(std::size_t n) {
+  return n == 0 ? "no warnings" : fmt::format("{} warning{}", n, n == 1 ? "" : "s");
+}
+
+// Those of the run by name; those of the case stand above, before its first step.
+std::string warnings(const Scene& scene, const RunProgress& progress) {
+  std::string text = counted(progress.warnings.size());
+  for (std::size_t i = 0; i < progress.warnings.size(); ++i)
+    text += (i == 0 ? ": " : ", ") + progress.warnings[i].monitor;
+  if (const std::size_t of_the_case = plausibility(scene).size(); of_the_case > 0)
+    text += fmt::format("; {} about the case", counted(of_the_case));
+  return text;
 }
 
 }  // namespace
@@ -35,7 +43,7 @@ std::string closing_line(const Scene& scene, const RunProgress& progress, const 
   return fmt::format(
       "{}: finished, t = {:.4g} s: {}{:.3g} core-seconds, {} steps of {} cells; {}; next: granvof report {}",
       scene.name, progress.simulated_time, results(scene, end), progress.core_seconds, progress.steps,
-      progress.cells, warnings(progress), directory.string());
+      progress.cells, warnings(scene, progress), directory.string());
 }
 
 }  // namespace granvof

@@ -46,13 +46,13 @@ EnergyTerms EnergyBudget::stored(const State& s) const {
     terms.kinetic += 0.5 * grid_.cell_volume *
                      sum_over(grid_.cells, grid_.inner_faces(d),
                               [=](std::ptrdiff_t c) { return ms[c] * u[c] * u[c] + mc[c] * v[c] * v[c]; });
-    for (const bool upper : {false, true}) {
-      if (!grid_.side(d, upper).passes_fluid) continue;
-      terms.kinetic += 0.25 * grid_.cell_volume *
-                       sum_over(grid_.cells, grid_.side_faces(d, upper),
-                                [=](std::ptrdiff_t c) { return mc[c] * v[c] * v[c]; });
-    }
   }
+  grid_.for_each_passing_side([&](int d, bool upper) {
+    const double *mc = inertia.fluid[d].data(), *v = s.u_c[d].data();
+    terms.kinetic += 0.25 * grid_.cell_volume *
+                     sum_over(grid_.cells, grid_.side_faces(d, upper),
+                              [=](std::ptrdiff_t c) { return mc[c] * v[c] * v[c]; });
+  });
   return terms;
 }
 
@@ -72,7 +72,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.viscosity = dt * trace.viscous.dissipation;
   t.collisions = granular.collisions;
   t.outflow = w.potential_out + w.kinetic_out + w.granular_out - w.side_pressure - w.driving -
-              dt * trace.viscous.sides;
+              dt * (trace.viscous.sides + stress.sides);
   t.walls = dt * (trace.viscous.walls + stress.walls);
   t.dilatancy = work_of_flow_pressure(dt, now, next, trace) - granular.pressure;
   t.shear_dilatancy = t.elastic - trace.carried;

@@ -1,5 +1,7 @@
 #include "solver/run/energy_faces.hpp"
 
+#include <algorithm>
+
 #include "solver/scene/gravity.hpp"
 
 namespace granvof {
@@ -22,10 +24,15 @@ class Faces {
   FaceWork sums() {
     for (int d = 0; d < grid_.dim; ++d) {
       add_solid(d);
-      add_fluid(d, grid_.inner_faces(d), 1.0);
+      add_fluid(d, grid_.inner_faces(d),
+                {.weight = 1.0, .inside = 0, .beyond = -grid_.stride(d), .least = 0.0});
     }
+    grid_.for_each_passing_side([&](int d, bool upper) {
+      const std::ptrdiff_t s = grid_.stride(d);
+      add_fluid(d, grid_.side_faces(d, upper),
+                {.weight = 0.5, .inside = upper ? -s : 0, .beyond = upper ? 0 : -s, .least = 1.0});
+    });
     grid_.for_each_open_side([&](int d, bool upper) {
-      if (grid_.side(d, upper).passes_fluid) add_fluid(d, grid_.side_faces(d, upper), 0.5);
       add_side(d, upper);
       add_half_cells(d, upper);
     });
@@ -34,7 +41,14 @@ class Faces {
 
  private:
   void add_solid(int d);
-  void add_fluid(int d, const Range& faces, double weight);
+  // What a face's velocity moves: a cell's volume times the weight, filled as its two cells are; the one
+  // beyond counts for no less than `least` of the one inside (passing_side_mass).
+  struct Moved {
+    double weight;
+    std::ptrdiff_t inside, beyond;
+    double least;
+  };
+  void add_fluid(int d, const Range& faces, const Moved& moved);
   void add_side(int d, bool upper);
   void add_potential_out(int d, bool upper);
   void add_half_cells(int d, bool upper);
@@ -86,8 +100,9 @@ void Faces::add_solid(int d) {
   if (grid_.cells.periodic[d]) work_.driving += volume * gravity;
 }
 
-void Faces::add_fluid(int d, const Range& faces, double weight) {
-  const std::ptrdiff_t s = grid_.stride(d);
+void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
+  const std::ptrdiff_t s = grid_.stride(d), inside = moved.inside, beyond = moved.beyond;
+  const double least = moved.least;
   const double *m = trace_.inertia.fluid[d].data(), *f = trace_.inertia.f_s[d].data(),
                *star = trace_.predictor.fluid()[d].data(),
                *convective = trace_.predictor.convective_fluid()[d].data();
@@ -107,9 +122,9 @@ void Faces::add_fluid(int d, const Range& faces, double weight) {
       const double v = v1[c], dv = v - v0[c], mv = m[c] * v, f_c = 1.0 - f[c];
       step += m[c] * dv * dv;
       before += mv * v;
-      after += ((1.0 - f1[c]) * mixture(a1[c], rho_l, rho_g) +
-                (1.0 - f1[c - s]) * mixture(a1[c - s], rho_l, rho_g)) *
-               v * v;
+      const double own = (1.0 - f1[c + inside]) * mixture(a1[c + inside], rho_l, rho_g);
+      const double others = (1.0 - f1[c + beyond]) * mixture(a1[c + beyond], rho_l, rho_g);
+      after += (own + std::max(least * own, others)) * v * v;
       predicted += mv * (star[c] - v0[c]) + v * f_c * dt_h * (p0[c] - p0[c - s]);
       convected += mv * convective[c] * dt;
       momentum += mv;
@@ -119,7 +134,7 @@ void Faces::add_fluid(int d, const Range& faces, double weight) {
     return Sums<8>{{step, before, after, predicted, convected, momentum, lifted, pressed}};
   });
   const auto [step, before, after, predicted, convected, momentum, lifted, pressed] = sums.values;
-  const double volume = weight * grid_.cell_volume, gravity = g_[d] * dt_ * momentum;
+  const double volume = moved.weight * grid_.cell_volume, gravity = g_[d] * dt_ * momentum;
   work_.step += 0.5 * volume * step;
   work_.kinetic += 0.25 * volume * after;
   work_.moved += volume * (0.25 * after - 0.5 * before);
@@ -182,6 +197,11 @@ void Faces::add_side(int d, bool upper) {
                          });
     work_.side_pressure -=
         sign * dt * area * total([=](std::ptrdiff_t c) { return p[c + inside] * (qs[c] + q[c]); });
+  }
+  if (side.passes_grains) {  // the velocity there is given: what the grains inside press on it with
+    const double *ps = next_.p_s.data(), *leaving = next_.u_s[d].data();
+    work_.side_pressure -=
+        sign * dt * area * total([=](std::ptrdiff_t c) { return ps[c + inside] * leaving[c]; });
   }
   work_.kinetic_out +=
       sign * dt * area * total([=](std::ptrdiff_t c) { return 0.5 * rho_s * qs[c] * us[c] * us[c]; });

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "solver/plausibility/plausibility.hpp"
 #include "solver/run/closing_line.hpp"
 #include "solver/tests/run/small_runs.hpp"
 #include "solver/tests/temporary_directory.hpp"
@@ -42,6 +43,15 @@ TEST(ClosingLine, SaysResultsCostWarningsAndWhatIsNext) {
   progress.warnings = {{"energy residual", 0.1, 0.2, 0.01, "so"}, {"friction solves", 0.1, 2, 1, "so"}};
   EXPECT_NE(closing_line(column_scene(), progress, scalars_of(0.1, 0.5), "a")
                 .find("2 warnings: energy residual, friction solves; next"),
+            std::string::npos);
+}
+
+// A run without warnings of a case that has some does not end in "no warnings" alone.
+TEST(ClosingLine, CountsWhatIsSaidAboutTheCase) {
+  const Scene scene = column_scene({"liquid.viscosity=1e-6"});
+  ASSERT_EQ(plausibility(scene).size(), 1u);
+  EXPECT_NE(closing_line(scene, some_progress(), scalars_of(0.1, 0.5), "a")
+                .find("; no warnings; 1 warning about the case; next"),
             std::string::npos);
 }
 

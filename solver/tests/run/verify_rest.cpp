@@ -1,6 +1,7 @@
 // What a tank at rest keeps: its liquid, the level of its fluid pressure, and its rest.
 #include <cmath>
 
+#include "solver/operators/mixture.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/tests/run/small_runs.hpp"
 
@@ -129,6 +130,36 @@ TEST(PressureLevel, NoSuctionIsLeftBySettledGrains) {
   EXPECT_GT(least, water - 0.02 * grains);
   EXPECT_NEAR(mean_pressure(run).base, water, 0.02 * grains);
 }
+
+// Under an open top the fluid carries the weight of what fills the cells up to it, and no more or less: a
+// tank full to the brim, one that runs over, one whose surface lies inside the last row.
+class OpenTop : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(OpenTop, BearsTheWeightOfTheCellsBelowIt) {
+  std::vector<std::string> overrides = GetParam().overrides;
+  overrides.insert(overrides.end(), {"bed=false", "solid=false"});
+  Simulation run(tank(overrides));
+  run.until(0.5);
+  ASSERT_FALSE(HasFatalFailure());
+  const Layout& l = run.grid.cells;
+  double weight = 0.0;  // above the middle of the lowest row
+  for (int j = 0; j < l.n[1]; ++j)
+    weight += (j == 0 ? 0.5 : 1.0) * run.grid.h[1] * run.scene.gravity *
+              mixture(run.now.alpha[l.index(2, j, 0)], run.scene.liquid.density, run.scene.gas.density);
+  const Pressure p = mean_pressure(run);
+  EXPECT_NEAR(p.lid, 0.0, 1e-4 * weight);
+  EXPECT_NEAR(p.base, weight, 1e-4 * weight);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Tanks, OpenTop,
+    ::testing::Values(Variant{"to_the_brim", {"liquid.level=0.12"}},
+                      Variant{"running_over", {"liquid.level=0.12", "walls.bottom.inflow=0.05"}},
+                      Variant{"inside_the_last_row", {"liquid.level=0.1175"}},
+                      Variant{"far_below", {"liquid.level=0.06"}},
+                      Variant{"in_3d",
+                              {"liquid.level=0.12", "scene.dimensions=3", "tank.size=[0.02, 0.12, 0.02]"}}),
+    name_of);
 
 class Pool : public ::testing::TestWithParam<Variant> {};
 
