@@ -26,6 +26,9 @@ ABOUT = {
     "solver/closures": "one law, one header",
     "solver/closures/drag": "laws of drag, a list",
     "solver/closures/friction": "friction coefficients, a list",
+    "solver/closures/packing": "where grains touch, a list",
+    "solver/closures/critical_packing": "what shear drives to, a list",
+    "solver/closures/granular_temperature": "what of (7) is solved, a list",
     "solver/closures/radial_distribution": "g0, a list",
     "solver/closures/kinetic_transport": "what flying grains carry, a list",
     "solver/operators": "one term, one file",
@@ -53,7 +56,8 @@ ABOUT = {
 # knows; demvof also shares the closure of the drag. The first that a part's name begins with holds.
 MAY_INCLUDE = {
     "solver/scene": ("solver/scene", "solver/model", "solver/closures/drag", "solver/closures/friction",
-                     "solver/closures/radial_distribution", "solver/closures/kinetic_transport"),  # what its keys choose from
+                     "solver/closures/radial_distribution", "solver/closures/kinetic_transport", "solver/closures/packing",
+                     "solver/closures/critical_packing", "solver/closures/granular_temperature"),  # what its keys choose from
     "solver/plausibility": ("solver/scene", "solver/model", "solver/closures"),  # pure functions, in headers
     "solver/output": ("solver/scene", "solver/plausibility"),
     "solver": ("solver",),

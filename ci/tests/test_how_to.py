@@ -101,6 +101,29 @@ def test_the_closure_passes_its_test(tmp_path):
     assert done.returncode == 0 and "1 test" in done.stdout
 
 
+def test_a_further_choice_of_each_list_is_a_header_and_a_line(tmp_path):
+    lists = sorted((ROOT / "solver/closures").glob("*/laws.hpp"))
+    page = (PAGES / "closure.md").read_text(encoding="utf-8")
+    assert all(f"closures/{laws.parent.name}/laws.hpp)" in page for laws in lists), "the page does not have every list"
+    for laws in lists:
+        text = laws.read_text(encoding="utf-8")
+        line, choices, first = re.search(r"using \w+ =\s+(Choices<((\w+)[^>]*)>);", text).group(0, 2, 3)
+        folder = tmp_path / laws.parent.relative_to(ROOT)
+        folder.mkdir(parents=True)
+        (folder / "another.hpp").write_text(
+            f'#pragma once\n#include "solver/model/choices.hpp"\nnamespace granvof::closures {{\nstruct {first}Too : {first} {{\n'
+            '  static constexpr ClosureFacts facts{"another", "a test"};\n};\n}\n', encoding="utf-8")
+        mine = f'#include "{(laws.parent / "another.hpp").relative_to(ROOT).as_posix()}"\n\nnamespace granvof::closures {{'
+        text = text.replace(line, line.replace(choices, f"{choices}, {first}Too")).replace("\nnamespace granvof::closures {", mine, 1)
+        (folder / "laws.hpp").write_text(text, encoding="utf-8")
+    # Whoever reads a list: the keys, and the operators.
+    for reader in ("scene/keys_of_model.cpp", "plausibility/plausibility_idle.cpp", "run/initial_state.cpp", "operators/packing.cpp",
+                   "operators/friction_law.cpp", "operators/granular_temperature.cpp", "operators/interphase_drag.cpp"):
+        built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", "-fopenmp", "-fsyntax-only", f"-I{tmp_path}", f"-I{ROOT}",
+                     ROOT / "solver" / reader)
+        assert built.returncode == 0, built.stderr
+
+
 def test_the_side_passes_its_test(tmp_path):
     for block in blocks("side.md", "cpp"):
         file = tmp_path / re.match(r"// (\S+)\n", block)[1]

@@ -80,13 +80,3 @@ def test_every_closure_is_on_a_page():
     text = "\n".join(page.read_text(encoding="utf-8") for page in THEORY.glob("*.md"))
     missing = [path.name for path in sorted((ROOT / "solver/closures").glob("*.hpp")) if path.name not in text]
     assert not missing, "closures without a section in docs/theory"
-
-
-def test_every_choice_of_the_model_is_on_a_page():
-    """A switch or choice of [model] that nobody can read about is a magic word."""
-    keys = "".join((ROOT / f"solver/scene/{name}.cpp").read_text(encoding="utf-8") for name in ("keys", "keys_of_model"))
-    schemes = "solid_flux|bed_surface|interface_scheme|contact_pressure"
-    names = set(re.findall(rf'"(model\.\w+|numerics\.(?:{schemes}))"', keys))
-    text = "\n".join(page.read_text(encoding="utf-8") for page in THEORY.glob("*.md"))
-    assert len(names) > 10
-    assert not [name for name in sorted(names) if f"`{name}" not in text]

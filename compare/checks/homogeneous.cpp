@@ -106,7 +106,7 @@ double friction_of_agitation(const Scene& scene, double f, double pressure, doub
 double touching(const Scene& scene, double f) {
   const Contact& c = scene.contact;
   if (scene.model.shear_dilatancy) return c.critical_solid_fraction;
-  return scene.model.packing == Packing::carried ? std::max(f, c.solid_fraction_min) : c.solid_fraction_min;
+  return closures::is_carried(scene.model.packing) ? std::max(f, c.solid_fraction_min) : c.solid_fraction_min;
 }
 
 // P_s^ES of (13).
@@ -148,8 +148,8 @@ std::optional<double> printed_settling_slip(const Scene& scene) {
 std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   const Model& model = scene.model;
   const double speed = scene.sides[top].velocity[0] - scene.sides[bottom].velocity[0];
-  if (!scene.bed || speed <= 0.0 || model.granular_temperature != TemperatureModel::transported ||
-      model.correlated_collisions || model.critical_packing != CriticalPacking::constant)
+  if (!scene.bed || speed <= 0.0 || !closures::is_transported(model.granular_temperature) ||
+      model.correlated_collisions || closures::depends_on_rate(model.critical_packing))
     return std::nullopt;
   const Solid& solid = scene.solid;
   const double high = scene.bed->box.upper[1] - scene.bed->box.lower[1];

@@ -40,8 +40,8 @@ StatedFiles stated_files(const nlohmann::json& json) {
 std::vector<LedgerTerm> ledger_of(const nlohmann::json& json) {
   std::vector<LedgerTerm> ledger;
   for (const auto& term : json)
-    ledger.push_back({term.at("name"), term.at("kind"), term.at("sign"), term.at("never_gains"),
-                      term.at("label"), term.at("meaning"), term.at("measured_in")});
+    ledger.push_back({term.at("name"), term.value("part", ""), term.at("kind"), term.at("sign"),
+                      term.at("never_gains"), term.at("label"), term.at("meaning"), term.at("measured_in")});
   return ledger;
 }
 

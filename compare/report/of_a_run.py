@@ -56,7 +56,7 @@ def said_of(facts, directory):
         if Path(entry["id"]).name != entry["id"]:
             raise ValueError(f"'{entry['id']}' is no name of a scene")
         table = [(what.replace("_", " "), shortened(facts[what])) for what in FACTS if facts.get(what) is not None]
-        return entry, warnings_of(facts), table
+        return entry, warnings_of(facts), table + model_of(facts)
     except OF_READING as error:
         raise granvof.NotARun(f"run.json: {type(error).__name__}: {error}") from error
 
@@ -108,6 +108,12 @@ def show(directory):
     write_whole(page, environment.get_template("run_page.html").render(
         name=name, title=scene["title"], figures=figures, resolved=run.facts["resolved_case"], warnings=warnings, facts=table))
     return page
+
+
+def model_of(facts):
+    """The parts of the model that act in the run, as its run.json lists them; nothing where it lists none."""
+    parts = [f"{part['name']} {part['equations']}".strip() for part in facts.get("parts", [])]
+    return [("model", "; ".join(parts))] if parts else []
 
 
 def warnings_of(facts):

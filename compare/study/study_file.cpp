@@ -8,6 +8,7 @@
 
 #include "compare/checks/theory.hpp"
 #include "compare/input/toml_entry.hpp"
+#include "solver/scene/keys.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -43,12 +44,19 @@ Other read_other(const TomlEntry& entry) {
   return other;
 }
 
+// What the key of an assignment is, and of which part of the model; "" for no key.
+std::string what_is(const std::string& assignment) {
+  const case_file::Key* key = case_file::find_key(assignment.substr(0, assignment.find('=')));
+  return key ? fmt::format("{}: {}", key->part->name, key->help.substr(0, key->help.rfind('.'))) : "";
+}
+
 Part read_part(const TomlEntry& entry) {
   entry.allow_only({"name", "set", "form", "about"});
   auto part = read_named<Part>(entry);
   if (entry.has("set") == entry.has("form")) entry.fail("", "give one of 'set' and 'form'");
   if (entry.has("form"))
     part.form = entry.one_of("form", {Form::rigid_lid, Form::two_dimensions, Form::each_choice});
+  if (part.about.empty() && !part.set.empty()) part.about = what_is(part.set.front());
   return part;
 }
 

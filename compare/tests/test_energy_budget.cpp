@@ -25,7 +25,7 @@ Run falling(double missing) {
   std::vector<Value> first{0.0}, last{1.0};
   for (const Column& column : columns) {
     run.series.columns.push_back({column.name, "J", ""});
-    run.facts.ledger.push_back({column.name, column.kind, column.sign, false, "", "", ""});
+    run.facts.ledger.push_back({column.name, "", column.kind, column.sign, false, "", "", ""});
     first.emplace_back(std::string_view(column.name) == "energy_potential" ? 10.0 : 0.0);
     last.emplace_back(column.end);
   }

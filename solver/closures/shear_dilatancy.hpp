@@ -8,7 +8,7 @@
 // beads). That f_p is a transported state behind an elastic pressure, so that pore fluid has to flow in or
 // out, is as in Montella et al., J. Fluid Mech. 925 (2021) A13; there dilatancy acts by that pressure alone.
 // The fall of the packing with the rate of shear is P_s^D (15), which stays, or, in viscous liquids too, that
-// of f_c itself: critical_packing().
+// of f_c itself: critical_packing/by_rate.hpp.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,6 @@ namespace granvof::closures {
 // [Pa s], SI units.
 inline double mixed_inertial_number(double gamma, double pressure, double rho_s, double d_s, double mu_c) {
   return (mu_c * gamma + 0.5 * rho_s * d_s * d_s * gamma * gamma) / pressure;
-}
-
-// Packing that shear at J drives a bed to [-], f_c / (1 + a sqrt(J)); without inertia and with a = 1 it is
-// that which Boyer, Guazzelli and Pouliquen, PRL 107 (2011) 188301, measured in suspensions. Limits: f_c for
-// slow shear.
-inline double critical_packing(double mixed_number, const Contact& c) {
-  return c.critical_solid_fraction / (1.0 + c.dilatancy_rate * std::sqrt(mixed_number));
 }
 
 inline constexpr double largest_dilatancy_tangent = 0.5;  // at most (Montella et al. 2021)

@@ -78,23 +78,23 @@ void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) 
   }
 }
 
-linear::Report Friction::solve(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
-                               const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
-                               FaceField& u_s) {
+linear::Report Friction::solve(const SolidBalance& balance, const FaceInertia& inertia,
+                               const Aperture& aperture, const Rheology& rheology, const State& now,
+                               State& next) {
   for (int d = 0; d < grid_.dim; ++d) normal_stress_[d].fill(0.0);
-  return solve_by(mass, rhs, inertia, aperture, rheology, u_strain, u_s);
+  return solve_by(balance, inertia, aperture, rheology, now.u_strain, next.u_s);
 }
 
-linear::Report Friction::solve_again(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
-                                     const Aperture& aperture, const Rheology& rheology,
-                                     const FaceField& u_last, FaceField& u_s) {
-  keep_normal_stress(u_last);
-  return solve_by(mass, rhs, inertia, aperture, rheology, u_last, u_s);
+linear::Report Friction::solve_again(const SolidBalance& balance, const FaceInertia& inertia,
+                                     const Aperture& aperture, const Rheology& rheology, State& next) {
+  keep_normal_stress(next.u_strain);
+  return solve_by(balance, inertia, aperture, rheology, next.u_strain, next.u_s);
 }
 
-linear::Report Friction::solve_by(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
+linear::Report Friction::solve_by(const SolidBalance& balance, const FaceInertia& inertia,
                                   const Aperture& aperture, const Rheology& rheology,
                                   const FaceField& u_strain, FaceField& u_s) {
+  const FaceField& mass = balance.mass;
   fit_box(inertia);
   if (is_empty(box_)) return {0, 0.0, 0.0, true};
   set_viscosity(rheology, u_strain);
@@ -114,7 +114,7 @@ linear::Report Friction::solve_by(const FaceField& mass, const FaceField& rhs, c
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
   for (int d = 0; d < grid_.dim; ++d) {
-    const double *b = rhs[d].data(), *m = marked_[d].data();
+    const double *b = balance.rhs[d].data(), *m = marked_[d].data();
     double *res = residual_[d].data(), *x = correction_[d].data();
     for_each(faces_[d], [=](std::ptrdiff_t c) {
       res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;

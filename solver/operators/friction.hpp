@@ -24,52 +24,61 @@
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/operators/strain.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
+
+// What is to be balanced on every face: mass u_s = rhs + the force of the solid stress.
+struct SolidBalance {
+  explicit SolidBalance(const Grid& grid) : mass(grid), rhs(grid) {}
+  FaceField mass;  // m_s + beta_eff of solid_momentum.hpp [kg/m3 s]
+  FaceField rhs;   // [Pa/m]
+};
 
 class Friction {
  public:
   Friction(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
-  // Solves for u_s on the faces that hold grains (f_s >= least_solid_fraction, open); elsewhere u_s keeps its
-  // value and acts as a known velocity. u_s holds the guess. mass [kg/m3 s], rhs [Pa/m]; viscosities from the
-  // rheology and from the strain of `u_strain`, whose ghosts must be filled.
-  linear::Report solve(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
-                       const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
-                       FaceField& u_s);
+  // Solves for u_s of `next` on the faces that hold grains (f_s >= least_solid_fraction, open); elsewhere it
+  // keeps its value and acts as a known velocity. It holds the guess. Viscosities from the rheology and from
+  // the strain of u_strain of `now`, whose ghosts must be filled.
+  linear::Report solve(const SolidBalance& balance, const FaceInertia& inertia, const Aperture& aperture,
+                       const Rheology& rheology, const State& now, State& next);
 
-  // The same once more within a step: viscosities from the strain of `u_last`, what the last solve gave
-  // (ghosts filled), and Coulomb walls by its normal traction. The first solve takes P_s^E for it.
-  linear::Report solve_again(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
-                             const Aperture& aperture, const Rheology& rheology, const FaceField& u_last,
-                             FaceField& u_s);
+  // The same once more within a step: viscosities from the strain of u_strain of `next`, what the last solve
+  // gave (ghosts filled), and Coulomb walls by its normal traction. The first solve takes P_s^E for it.
+  linear::Report solve_again(const SolidBalance& balance, const FaceInertia& inertia,
+                             const Aperture& aperture, const Rheology& rheology, State& next);
 
   bool has_coulomb_walls() const;
-  // Whether grains slip on Coulomb walls by other than the viscosities of the last solve were taken at,
-  // `before`: those are the walls' limit over the old speed, and hold what begins to slide for many steps.
-  bool slips_otherwise(const FaceField& before, const FaceField& now) const;
+  // Whether grains slip on Coulomb walls (u_s) by other than what the viscosities of the last solve were
+  // taken at (u_strain): those are the walls' limit over the old speed, and hold what begins to slide for
+  // many steps.
+  bool slips_otherwise(const State& next) const;
 
-  // Power [W] of the stress of the last solve, at the velocity `u` it was solved for; `kinetic` [W/m3]: what
-  // the kinetic viscosity dissipates in each cell, an edge's dissipation shared by its cells as their
-  // viscosity.
+  // Power [W] of the stress of the last solve, at the velocity u_strain of `next` that it was solved
+  // for;
+  // `kinetic` [W/m3]: what the kinetic viscosity dissipates in each cell, an edge's dissipation shared by its
+  // cells as their viscosity.
   struct Power {
-    double on_grains = 0.0;   // its force times the velocity u_end, on the faces that hold grains
-    double solved_for = 0.0;  // the same with the velocity u
+    double on_grains = 0.0;   // its force times the velocity u_s, on the faces that hold grains
+    double solved_for = 0.0;  // the same with u_strain
     double friction = 0.0;    // dissipated by enduring contacts, >= 0
     double kinetic = 0.0;     // dissipated by the kinetic viscosity, >= 0: the production of Theta
     double walls = 0.0;       // given by moving walls
     double sides = 0.0;       // given by what is beyond sides that grains pass, along their normals
   };
-  Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end, Field& kinetic);
+  Power power(const FaceField& mass, const State& next, Field& kinetic);
 
  private:
   void fit_box(const FaceInertia& inertia);
   void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
-  linear::Report solve_by(const FaceField& mass, const FaceField& rhs, const FaceInertia& inertia,
-                          const Aperture& aperture, const Rheology& rheology, const FaceField& u_strain,
-                          FaceField& u_s);
+  linear::Report solve_by(const SolidBalance& balance, const FaceInertia& inertia, const Aperture& aperture,
+                          const Rheology& rheology, const FaceField& u_strain, FaceField& u_s);
   bool holds_by_friction(int d, bool upper) const;
+  template <typename Chosen, typename Visit>
+  void for_each_wall(Chosen&& chosen, Visit&& visit) const;
   template <typename Visit>
   void for_each_coulomb_wall(Visit&& visit) const;
   void keep_normal_stress(const FaceField& u);

@@ -73,20 +73,23 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     grains.friction = 0.0;
   }
   const Contact contact = scene_.contact;
-  const bool by_rate = scene_.model.shear_dilatancy && scene_.model.dilatancy_friction &&
-                       scene_.model.critical_packing == CriticalPacking::by_rate;
+  const bool dilates = scene_.model.shear_dilatancy && scene_.model.dilatancy_friction;
+  const CriticalPacking critical = scene_.model.critical_packing;
   const auto viscosity_at = [=](const Contacts& sum, double norm) {
     const double share = 1.0 / sum.count, pressure = share * sum.pressure, mu_c = share * sum.fluid;
     const double of_law = friction.with([&](auto law) {
       return law.coefficient({pressure, norm, mu_c}, grains, contact);
     });
     double dilatancy = share * sum.dilatancy;
-    if (by_rate) {
-      const double mixed =
-          closures::mixed_inertial_number(2.0 * norm, pressure, grains.density, grains.diameter, mu_c);
-      dilatancy += contact.dilatancy_slope *
-                   (contact.critical_solid_fraction - closures::critical_packing(mixed, contact));
-    }
+    critical.with([&](auto law) {
+      if constexpr (decltype(law)::depends_on_rate) {
+        if (!dilates) return;
+        const double mixed =
+            closures::mixed_inertial_number(2.0 * norm, pressure, grains.density, grains.diameter, mu_c);
+        dilatancy +=
+            contact.dilatancy_slope * (contact.critical_solid_fraction - law.packing(mixed, contact));
+      }
+    });
     double coefficient = std::max(std::max(of_law, share * sum.least) + dilatancy, 0.0);
     if (sum.drag > 0.0)
       coefficient +=

@@ -8,11 +8,10 @@
 
 namespace granvof {
 
-Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const FaceField& u_end,
-                                Field& kinetic_power) {
+Friction::Power Friction::power(const FaceField& mass, const State& next, Field& kinetic_power) {
   kinetic_power.fill(0.0);
   if (is_empty(box_)) return {};
-  correction_ = u;
+  correction_ = next.u_strain;
   const linear::Components v = component_pointers(correction_, grid_.dim),
                            r = component_pointers(residual_, grid_.dim);
   fill_wall_ghosts(v, true);
@@ -27,8 +26,8 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h = 1.0 / grid_.h[d];
-    const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(), *end = u_end[d].data(),
-                 *mu = normal_viscosity(d);
+    const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(),
+                 *end = next.u_s[d].data(), *mu = normal_viscosity(d);
     const auto work_on = [&](const double* velocity) {
       return sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
         return m[c] != 0.0 ? velocity[c] * (own[c] * x[c] - y[c]) : 0.0;

@@ -23,14 +23,17 @@ Range edges_on_side(const Grid& grid, const Range& box, int d, int e, bool upper
 
 }  // namespace
 
-// visit(d, upper, e, edges) on each Coulomb wall for each tangential direction e.
-template <typename Visit>
-void Friction::for_each_coulomb_wall(Visit&& visit) const {
+// visit(d, upper, e, edges) on each side that `chosen(d, upper)` for each tangential direction e.
+template <typename Chosen, typename Visit>
+void Friction::for_each_wall(Chosen&& chosen, Visit&& visit) const {
   for (int d = 0; d < grid_.dim; ++d)
     for (const bool upper : {false, true})
       for (int e = 0; e < grid_.dim; ++e)
-        if (e != d && holds_by_friction(d, upper))
-          visit(d, upper, e, edges_on_side(grid_, box_, d, e, upper));
+        if (e != d && chosen(d, upper)) visit(d, upper, e, edges_on_side(grid_, box_, d, e, upper));
+}
+template <typename Visit>
+void Friction::for_each_coulomb_wall(Visit&& visit) const {
+  for_each_wall([this](int d, bool upper) { return holds_by_friction(d, upper); }, visit);
 }
 
 void Friction::keep_normal_stress(const FaceField& u) {
@@ -69,45 +72,39 @@ bool Friction::has_coulomb_walls() const {
 void Friction::set_wall_friction(const Rheology& rheology, const FaceField& u_strain) {
   const double* p = rheology.enduring_pressure.data();
   const double slowest = slowest_sliding * velocity_;
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (const bool upper : {false, true}) {
-      if (grid_.cells.seam(d, upper)) continue;
-      const SideRule& side = boundary_.side(d, upper);
-      const double mu_w = side.friction;
-      if (std::isinf(mu_w)) continue;
-      for (int e = 0; e < grid_.dim; ++e) {
-        if (e == d) continue;
-        const Range wall = edges_on_side(grid_, box_, d, e, upper);
-        const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, t = grid_.stride(e);
-        const double h = grid_.h[d], u_wall = side.velocity[e];
-        const int g =
-            3 - d - e;  // in 3D the other tangential direction: the wall limits the vector, not a component
-        const bool three = grid_.dim == 3;
-        const double w_wall = three ? side.velocity[g] : 0.0;
-        const std::ptrdiff_t r = three ? grid_.stride(g) : 0;
-        const double *v = u_strain[e].data(), *w = three ? u_strain[g].data() : v,
-                     *stress = holds_by_friction(d, upper) ? normal_stress_[d].data() : nullptr;
-        double* edge = mu_edge_[plane_index(d, e)].data();
-        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
-          const double pressure = 0.25 * (p[c] + p[c - s] + p[c - t] + p[c - s - t]);
-          const std::ptrdiff_t i = c + inside;
-          const double traction = stress ? pressure - 0.5 * (stress[i] + stress[i - t]) : pressure;
-          const double along = v[i] - u_wall;
-          const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
-          const double speed = std::sqrt(along * along + across * across);
-          edge[c] = std::min(edge[c], mu_w * std::max(traction, 0.0) * 0.5 * h / std::max(speed, slowest));
-        });
-      }
-    }
-  }
+  const auto limits_shear = [this](int d, bool upper) {
+    return !grid_.cells.seam(d, upper) && !std::isinf(boundary_.side(d, upper).friction);
+  };
+  for_each_wall(limits_shear, [&](int d, bool upper, int e, const Range& wall) {
+    const SideRule& side = boundary_.side(d, upper);
+    const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, t = grid_.stride(e);
+    const double mu_w = side.friction, h = grid_.h[d], u_wall = side.velocity[e];
+    const int g =
+        3 - d - e;  // in 3D the other tangential direction: the wall limits the vector, not a component
+    const bool three = grid_.dim == 3;
+    const double w_wall = three ? side.velocity[g] : 0.0;
+    const std::ptrdiff_t r = three ? grid_.stride(g) : 0;
+    const double *v = u_strain[e].data(), *w = three ? u_strain[g].data() : v,
+                 *stress = holds_by_friction(d, upper) ? normal_stress_[d].data() : nullptr;
+    double* edge = mu_edge_[plane_index(d, e)].data();
+    for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
+      const double pressure = 0.25 * (p[c] + p[c - s] + p[c - t] + p[c - s - t]);
+      const std::ptrdiff_t i = c + inside;
+      const double traction = stress ? pressure - 0.5 * (stress[i] + stress[i - t]) : pressure;
+      const double along = v[i] - u_wall;
+      const double across = three ? 0.25 * (w[i] + w[i - t] + w[i + r] + w[i + r - t]) - w_wall : 0.0;
+      const double speed = std::sqrt(along * along + across * across);
+      edge[c] = std::min(edge[c], mu_w * std::max(traction, 0.0) * 0.5 * h / std::max(speed, slowest));
+    });
+  });
 }
 
-bool Friction::slips_otherwise(const FaceField& before, const FaceField& now) const {
+bool Friction::slips_otherwise(const State& next) const {
   double fastest = slowest_sliding * velocity_, changed = 0.0;
   for_each_coulomb_wall([&](int d, bool upper, int e, const Range& wall) {
     const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0;
     const double u_wall = boundary_.side(d, upper).velocity[e];
-    const double *was = before[e].data(), *is = now[e].data(), *m = marked_[e].data();
+    const double *was = next.u_strain[e].data(), *is = next.u_s[e].data(), *m = marked_[e].data();
     fastest = max_over(grid_.cells, wall, fastest,
                        [=](std::ptrdiff_t c) { return m[c + inside] * std::fabs(is[c + inside] - u_wall); });
     changed = max_over(grid_.cells, wall, changed, [=](std::ptrdiff_t c) {
@@ -143,29 +140,21 @@ void Friction::set_kinetic_edges(const Rheology& rheology) {
 void Friction::slip_on_bumps(const Rheology& rheology) {
   if (rheology.bump_pressure.empty()) return;
   const double* pressure = rheology.bump_pressure.data();
-  for (int d = 0; d < grid_.dim; ++d) {
-    for (const bool upper : {false, true}) {
-      const auto& bumps = boundary_.side(d, upper).bumps;
-      if (!bumps) continue;
-      const double slip = closures::bumpy_wall_slip(bumps->angle);
-      for (int e = 0; e < grid_.dim; ++e) {
-        if (e == d) continue;
-        const int plane = plane_index(std::min(d, e), std::max(d, e));
-        const Range wall = edges_on_side(grid_, box_, d, e, upper);
-        const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
-        const double half = 0.5 * grid_.h[d];
-        double *own = kinetic_edge_[plane].data(), *edge = mu_edge_[plane].data();
-        for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
-          const double before = own[c];
-          const double hold =
-              0.25 * half / slip *
-              (pressure[c] + pressure[c - s] + pressure[c - t] + pressure[c - s - t]);  // [Pa s]
-          own[c] = before > 0.0 ? before * hold / (before + hold) : 0.0;
-          edge[c] += own[c] - before;
-        });
-      }
-    }
-  }
+  const auto has_bumps = [this](int d, bool upper) { return boundary_.side(d, upper).bumps.has_value(); };
+  for_each_wall(has_bumps, [&](int d, bool upper, int e, const Range& wall) {
+    const double slip = closures::bumpy_wall_slip(boundary_.side(d, upper).bumps->angle);
+    const int plane = plane_index(std::min(d, e), std::max(d, e));
+    const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
+    const double half = 0.5 * grid_.h[d];
+    double *own = kinetic_edge_[plane].data(), *edge = mu_edge_[plane].data();
+    for_each(grid_.cells, wall, [=](std::ptrdiff_t c) {
+      const double before = own[c];
+      const double hold = 0.25 * half / slip *
+                          (pressure[c] + pressure[c - s] + pressure[c - t] + pressure[c - s - t]);  // [Pa s]
+      own[c] = before > 0.0 ? before * hold / (before + hold) : 0.0;
+      edge[c] += own[c] - before;
+    });
+  });
 }
 
 }  // namespace granvof

@@ -173,7 +173,7 @@ class LocalBalances {
 // w^2 - decay w, is a quadratic with one positive root, above zero for grains at rest too.
 void GranularTemperature::predict(double dt, const State& now, const Field& beta, const Field& restitution,
                                   const StrainRate& strain, Field& predicted) const {
-  const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
+  const bool steady = !closures::is_transported(scene_.model.granular_temperature);
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
   const LocalBalances at(scene_, laws_, wall_loss_, now.f_s, beta, restitution, strain);
   const double *f = now.f_s.data(), *t = now.theta.data(), *sq = strain.squared.data(),
@@ -201,7 +201,7 @@ void GranularTemperature::predict(double dt, const State& now, const Field& beta
 GranularLosses GranularTemperature::balance(double dt, const State& now, const Field& beta,
                                             const Field& restitution, const StrainRate& strain,
                                             const Field& production, State& next) {
-  const bool steady = scene_.model.granular_temperature == TemperatureModel::algebraic;
+  const bool steady = !closures::is_transported(scene_.model.granular_temperature);
   const double bound = largest_granular_temperature(scene_), rho_s = scene_.solid.density;
   const LocalBalances at(scene_, laws_, wall_loss_, next.f_s, beta, restitution, strain);
   const double *f0 = now.f_s.data(), *f = next.f_s.data(), *produced = production.data(),
@@ -244,16 +244,12 @@ GranularLosses GranularTemperature::balance(double dt, const State& now, const F
 GranularLosses GranularTemperature::advance(double dt, const State& now, const FaceField& flux_s,
                                             const Field& beta, const Rheology& rheology,
                                             const StrainRate& strain, const Field& production, State& next) {
+  const TemperatureModel model = scene_.model.granular_temperature;
+  if (!closures::agitates(model)) return {};  // Theta stays zero
   double run_out = 0.0;
-  switch (scene_.model.granular_temperature) {
-    case TemperatureModel::off:
-      return {};  // Theta stays zero
-    case TemperatureModel::transported:
-      run_out = convect(dt, now, flux_s, next);
-      conduct(dt, rheology, next);
-      break;
-    case TemperatureModel::algebraic:
-      break;
+  if (closures::is_transported(model)) {
+    run_out = convect(dt, now, flux_s, next);
+    conduct(dt, rheology, next);
   }
   GranularLosses losses = balance(dt, now, beta, rheology.restitution, strain, production, next);
   losses.run_out = run_out;

@@ -32,10 +32,10 @@ InterfaceTransport::InterfaceTransport(const Grid& grid, const Scene& scene, con
 }
 
 // The outflow Courant number of every cell goes to courant_; only cells at the interface decide the division.
-int InterfaceTransport::substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c) {
+int InterfaceTransport::substeps(double dt, const State& now, const FaceField& flux_c) {
   outflow_rate(grid_, flux_c, courant_);
   double* co = courant_.data();
-  const double *f = f_s.data(), *a = alpha.data();
+  const double *f = now.f_s.data(), *a = now.alpha.data();
   const double largest = max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
     co[c] *= dt / (1.0 - f[c]);
     return a[c] > 1e-6 && a[c] < 1.0 - 1e-6 ? co[c] : 0.0;
@@ -97,9 +97,9 @@ void InterfaceTransport::face_alpha(int d, const Field& alpha, const FaceField& 
 }
 
 // Zalesak's limiter on the corrections: liquid_ holds the upwind result, which is within bounds.
-void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
+void InterfaceTransport::limit_corrections(double dt) {
   double *gain = gain_.data(), *loss = loss_.data();
-  const double *fl = liquid_.data(), *fc = f_c_end.data();
+  const double *fl = liquid_.data(), *fc = f_c_end_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { gain[c] = loss[c] = 0.0; });
   for (int d = 0; d < grid_.dim; ++d) {
     const double* q = correction_[d].data();
@@ -127,19 +127,18 @@ void InterfaceTransport::limit_corrections(double dt, const Field& f_c_end) {
   }
 }
 
-void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c,
-                                 Field& f_c_end) {
+void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alpha) {
   boundary_.fill_liquid_share(alpha, flux_c);
   interface_normal(alpha);
-  double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c.data();
+  double *fl = liquid_.data(), *a = alpha.data(), *fc = f_c_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fl[c] = a[c] * fc[c]; });
   subtract_upwind_divergence(grid_, dt, flux_c, alpha, liquid_);
   // What the fluxes leave, not 1 - f_s: the two differ by the continuity residual, and only with the former
   // is alpha bounded without clipping, which would lose the residual of every full cell.
-  f_c_end = f_c;
-  subtract_divergence(grid_, dt, flux_c, f_c_end);
+  f_c_end_ = f_c_;
+  subtract_divergence(grid_, dt, flux_c, f_c_end_);
   for (int d = 0; d < grid_.dim; ++d) face_alpha(d, alpha, flux_c);
-  limit_corrections(dt, f_c_end);
+  limit_corrections(dt);
   for (int d = 0; d < grid_.dim; ++d) {
     const double *q = flux_c[d].data(), *corr = correction_[d].data();
     double* liquid = passed_.through[d].data();
@@ -148,26 +147,26 @@ void InterfaceTransport::substep(double dt, const FaceField& flux_c, Field& alph
              [=](std::ptrdiff_t c) { liquid[c] += dt * (q[c] * (q[c] > 0.0 ? a[c - s] : a[c]) + corr[c]); });
   }
   subtract_divergence(grid_, dt, correction_, liquid_);
-  const double* fc_end = f_c_end.data();
+  const double* fc_end = f_c_end_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     a[c] = std::clamp(fl[c] / fc_end[c], 0.0, 1.0);  // within bounds already but for rounding
     fc[c] = fc_end[c];
   });
 }
 
-const LiquidPassed& InterfaceTransport::advance(double dt, const Field& alpha, const Field& f_s,
-                                                const FaceField& flux_c, Field& alpha_new) {
+const LiquidPassed& InterfaceTransport::advance(double dt, const State& now, const FaceField& flux_c,
+                                                State& next) {
   passed_.clear(grid_);
   if (plic_) {
-    plic_->advance(dt, alpha, f_s, flux_c, alpha_new, passed_);
+    plic_->advance(dt, now, flux_c, next, passed_);
     return passed_;
   }
-  const int parts = substeps(dt, alpha, f_s, flux_c);
-  alpha_new = alpha;
-  const double* f = f_s.data();
+  const int parts = substeps(dt, now, flux_c);
+  next.alpha = now.alpha;
+  const double* f = now.f_s.data();
   double* fc = f_c_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
-  for (int part = 0; part < parts; ++part) substep(dt / parts, flux_c, alpha_new, f_c_, f_c_end_);
+  for (int part = 0; part < parts; ++part) substep(dt / parts, flux_c, next.alpha);
   return passed_;
 }
 

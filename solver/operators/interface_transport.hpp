@@ -18,22 +18,23 @@ class InterfaceTransport {
  public:
   InterfaceTransport(const Grid& grid, const Scene& scene, const Boundary& boundary);
 
-  // In: alpha and f_s of the old level (two ghost layers filled), flux_c [m/s]. Out: alpha of the new level.
+  // alpha of `next` from alpha and f_s of `now` (two ghost layers filled) and flux_c [m/s].
   // Returns what passed the faces, valid until the next call.
-  const LiquidPassed& advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
-                              Field& alpha_new);
+  const LiquidPassed& advance(double dt, const State& now, const FaceField& flux_c, State& next);
 
  private:
-  int substeps(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c);
+  int substeps(double dt, const State& now, const FaceField& flux_c);
   void interface_normal(const Field& alpha);
   void face_alpha(int d, const Field& alpha, const FaceField& flux_c);
-  void limit_corrections(double dt, const Field& f_c_end);
-  void substep(double dt, const FaceField& flux_c, Field& alpha, Field& f_c, Field& f_c_end);
+  void limit_corrections(double dt);
+  void substep(double dt, const FaceField& flux_c, Field& alpha);
 
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
-  Field liquid_, f_c_, f_c_end_, courant_, gain_, loss_;
+  Field liquid_;
+  Field f_c_, f_c_end_;  // at the start and at the end of a substep [-]
+  Field courant_, gain_, loss_;
   FaceField slope_;       // grad alpha, component by component
   FaceField correction_;  // CICSAM flux minus upwind flux [m/s]
   LiquidPassed passed_;

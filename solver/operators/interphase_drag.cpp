@@ -74,7 +74,7 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const State& now, c
     for (const std::ptrdiff_t face : grid_.obstacles.faces(d)) beta[face] = 0.0;  // no grains pass
     boundary.exchange(beta_[d]);
   }
-  if (scene_.model.granular_temperature == TemperatureModel::off) return;
+  if (!closures::agitates(scene_.model.granular_temperature)) return;
   const std::array<const double*, 3> slip{slip_[0].data(), slip_[1].data(),
                                           grid_.dim == 3 ? slip_[2].data() : nullptr};
   const auto stride = grid_.cells.stride;

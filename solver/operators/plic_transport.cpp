@@ -129,19 +129,19 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
   for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) { through[c] += dt * liquid[c]; });
 }
 
-void PlicTransport::advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c,
-                            Field& alpha_new, LiquidPassed& passed) {
-  const double courant = outflow_courant(grid_, dt, f_s, true, 0.0, flux_c);
+void PlicTransport::advance(double dt, const State& now, const FaceField& flux_c, State& next,
+                            LiquidPassed& passed) {
+  const double courant = outflow_courant(grid_, dt, now.f_s, true, 0.0, flux_c);
   const int parts = std::max(1, static_cast<int>(std::ceil(courant / largest_courant)));
   const double part = dt / parts;
-  alpha_new = alpha;
-  const double* f = f_s.data();
+  next.alpha = now.alpha;
+  const double* f = now.f_s.data();
   double* fc = f_c_.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { fc[c] = 1.0 - f[c]; });
   for (int n = 0; n < parts; ++n) {
-    for (int d = 0; d < grid_.dim - 1; ++d) sweep(d, 0.5 * part, flux_c, alpha_new, passed);
-    sweep(grid_.dim - 1, part, flux_c, alpha_new, passed);
-    for (int d = grid_.dim - 2; d >= 0; --d) sweep(d, 0.5 * part, flux_c, alpha_new, passed);
+    for (int d = 0; d < grid_.dim - 1; ++d) sweep(d, 0.5 * part, flux_c, next.alpha, passed);
+    sweep(grid_.dim - 1, part, flux_c, next.alpha, passed);
+    for (int d = grid_.dim - 2; d >= 0; --d) sweep(d, 0.5 * part, flux_c, next.alpha, passed);
   }
 }
 

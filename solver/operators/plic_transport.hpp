@@ -13,6 +13,7 @@
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/liquid_passed.hpp"
 #include "solver/operators/plane_in_cell.hpp"
+#include "solver/state/state.hpp"
 
 namespace granvof {
 
@@ -20,10 +21,9 @@ class PlicTransport {
  public:
   PlicTransport(const Grid& grid, const Boundary& boundary);
 
-  // In: alpha and f_s of the old level (ghosts filled), flux_c [m/s]. Out: alpha of the new level.
-  // What passes the faces is added to `passed`.
-  void advance(double dt, const Field& alpha, const Field& f_s, const FaceField& flux_c, Field& alpha_new,
-               LiquidPassed& passed);
+  // alpha of `next` from alpha and f_s of `now` (ghosts filled) and flux_c [m/s]. What passes the faces is
+  // added to `passed`.
+  void advance(double dt, const State& now, const FaceField& flux_c, State& next, LiquidPassed& passed);
 
  private:
   void sweep(int d, double dt, const FaceField& flux_c, Field& alpha, LiquidPassed& passed);

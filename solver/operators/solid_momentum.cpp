@@ -10,21 +10,19 @@ constexpr int most_passes = 40;
 }  // namespace
 
 SolidMomentum::SolidMomentum(const Grid& grid, const Scene& scene, const Boundary& boundary)
-    : grid_(grid), boundary_(boundary), friction_(grid, scene, boundary), mass_(grid), rhs_(grid) {}
+    : grid_(grid), boundary_(boundary), friction_(grid, scene, boundary), balance_(grid) {}
 
 linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumPredictor& predicted,
                                     const FaceInertia& inertia, const InterphaseDrag& drag,
                                     const Rheology& rheology, const Aperture& aperture, State& next) {
   set_balance(dt, now, predicted, inertia, drag, aperture, next);
-  linear::Report report = friction_.solve(mass_, rhs_, inertia, aperture, rheology, now.u_strain, next.u_s);
+  linear::Report report = friction_.solve(balance_, inertia, aperture, rheology, now, next);
   next.u_strain = now.u_strain;
-  const auto settled = [&](int pass) {
-    return pass > 1 && !friction_.slips_otherwise(next.u_strain, next.u_s);
-  };
+  const auto settled = [&](int pass) { return pass > 1 && !friction_.slips_otherwise(next); };
   for (int pass = 1; friction_.has_coulomb_walls() && pass < most_passes && !settled(pass); ++pass) {
     next.u_strain = next.u_s;
     boundary_.fill_velocity(next.u_strain, Phase::solid);
-    report = friction_.solve_again(mass_, rhs_, inertia, aperture, rheology, next.u_strain, next.u_s);
+    report = friction_.solve_again(balance_, inertia, aperture, rheology, next);
   }
   recover_fluid(dt, predicted, inertia, drag, next);
   next.u_strain = next.u_s;
@@ -42,7 +40,7 @@ void SolidMomentum::set_balance(double dt, const State& now, const MomentumPredi
     const double *beta = drag.beta()[d].data(), *open = aperture[d].data();
     const double *p_c = now.p_c.data(), *p_s = now.p_s.data(), *us = now.u_s[d].data();
     const double *c_star = predicted.fluid()[d].data(), *s_star = predicted.solid()[d].data();
-    double *mass = mass_[d].data(), *rhs = rhs_[d].data(), *guess = next.u_s[d].data();
+    double *mass = balance_.mass[d].data(), *rhs = balance_.rhs[d].data(), *guess = next.u_s[d].data();
     for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
       const double m_s = solid[c] * inv_dt, m_c = fluid[c] * inv_dt;
       const double beta_eff = beta[c] * m_c / (m_c + beta[c]);

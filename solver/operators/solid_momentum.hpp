@@ -22,7 +22,7 @@ class SolidMomentum {
 
   // Power of the stress of the last solve, see Friction::power(); `next` after the whole step.
   Friction::Power power(const State& next, Field& kinetic) {
-    return friction_.power(mass_, next.u_strain, next.u_s, kinetic);
+    return friction_.power(balance_.mass, next, kinetic);
   }
 
  private:
@@ -35,8 +35,7 @@ class SolidMomentum {
   const Grid& grid_;
   const Boundary& boundary_;
   Friction friction_;
-  FaceField mass_;  // m_s + beta_eff [kg/m3 s]
-  FaceField rhs_;   // [Pa/m]
+  SolidBalance balance_;
 };
 
 }  // namespace granvof

@@ -11,22 +11,22 @@ namespace granvof {
 // no face whose momentum is solved, and does no work.
 template <typename Body>
 double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
-  struct Part {
+  struct Stretch {
     int lower, upper;
     double weight;
     bool closed;
   };
-  const auto parts = [&](int direction) {
+  const auto stretches = [&](int direction) {
     const int n = grid.cells.n[direction];
     const bool below = !grid.cells.seam(direction, false), above = !grid.cells.seam(direction, true);
     const auto closed = [&](bool upper) { return !grid.side(direction, upper).passes_fluid; };
-    return std::array<Part, 3>{{{0, 1, below ? 0.5 : 0.0, closed(false)},
-                                {below ? 1 : 0, n, 1.0, false},
-                                {n, n + 1, above ? 0.5 : 0.0, closed(true)}}};
+    return std::array<Stretch, 3>{{{0, 1, below ? 0.5 : 0.0, closed(false)},
+                                   {below ? 1 : 0, n, 1.0, false},
+                                   {n, n + 1, above ? 0.5 : 0.0, closed(true)}}};
   };
   SumOfParts sum(grid.cells);
-  for (const Part& a : parts(d)) {
-    for (const Part& b : parts(e)) {
+  for (const Stretch& a : stretches(d)) {
+    for (const Stretch& b : stretches(e)) {
       if (a.weight * b.weight == 0.0 || (a.closed && b.closed)) continue;
       Range r = grid.edges(d, e);
       r.lower[d] = a.lower;

@@ -80,6 +80,7 @@ ordered_json ledger_json(const std::vector<LedgerTerm>& ledger) {
   ordered_json terms = ordered_json::array();
   for (const LedgerTerm& term : ledger) {
     terms.push_back({{"name", term.name},
+                     {"part", term.part},
                      {"kind", term.kind},
                      {"sign", term.sign},
                      {"never_gains", term.never_gains},
@@ -141,6 +142,9 @@ std::string run_record_text(const Scene& scene, const RunRecord& record, const R
   json["solid_fraction_max"] = progress.solid_fraction_max;
   json["monitors"] = progress.monitors;
   if (!record.start.ledger.empty()) json["ledger"] = ledger_json(record.start.ledger);
+  for (const Part* part : record.start.parts)
+    json["parts"].push_back(
+        {{"name", part->name}, {"equations", text_of_equations(part->equations)}, {"page", part->page}});
   json["warnings"] = ordered_json::array();
   for (const Warning& w : progress.warnings) {
     json["warnings"].push_back({{"monitor", w.monitor},

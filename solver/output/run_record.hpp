@@ -11,6 +11,7 @@
 
 #include "solver/output/case_changes.hpp"
 #include "solver/output/series_file.hpp"
+#include "solver/scene/parts.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
@@ -23,6 +24,7 @@ enum class ExitState { running, finished, failed, stopped };
 // A term of the energy ledger of the program, as its readers need it: how a column of series.csv counts.
 struct LedgerTerm {
   std::string name;  // of the column
+  std::string part;  // of the model, whose work it is
   std::string kind;  // stored, dissipated, outside, numerical, part, residual
   int sign = 0;      // of the column in the sum of changes and losses that vanishes but for the residual
   bool never_gains = false;
@@ -47,8 +49,9 @@ struct RunStart {
   std::string program;  // "granvof" or "demvof"
   std::string command;  // the command line
   int ranks = 1;
-  int threads = 1;                 // of each rank
-  std::vector<LedgerTerm> ledger;  // empty: the program keeps none
+  int threads = 1;                      // of each rank
+  std::vector<LedgerTerm> ledger;       // empty: the program keeps none
+  std::vector<const Part*> parts = {};  // of the model that act in the scene, as the program has them
 };
 
 // A monitor that passed its limit.

@@ -35,23 +35,21 @@ Condition any_of(std::vector<Condition> all) {
   };
 }
 
-bool has_liquid(const Scene& s) {
-  return !s.liquid_boxes.empty() || std::ranges::any_of(s.sides, [](const Side& side) {
-    return (side.kind == SideKind::inlet && side.inflow.liquid_share > 0.0) || side.outflow.level > 0.0;
-  });
-}
-// Theta is made by mu_s^K alone.
-bool has_agitation(const Scene& s) {
-  return s.model.granular_temperature != TemperatureModel::off && s.model.kinetic_viscosity;
-}
-bool critical_by_rate(const Scene& s) {
-  return s.model.shear_dilatancy && s.model.critical_packing == CriticalPacking::by_rate;
-}
 bool floor_holds_grains(const Scene& s) {
   return s.sides[bottom].kind == SideKind::wall && s.sides[bottom].solid.kind == WallKind::no_slip;
 }
 bool law_stops_in_liquid(const Scene& s) {
   return closures::depends_on_pore_viscosity(s.model.friction_law);
+}
+
+// A parameter that some laws of critical packing alone read.
+Idle of_critical_packing(const std::string& key) {
+  return {{key},
+          [key](const Scene& s) {
+            return s.model.shear_dilatancy && s.model.critical_packing.facts().reads_key(key);
+          },
+          fmt::format("{}model.shear_dilatancy and model.critical_packing = {}", no_effect,
+                      closures::words_that_read<closures::CriticalPackings>(key))};
 }
 
 // A parameter that some laws of friction alone read.
@@ -65,13 +63,11 @@ Idle of_friction_law(const std::string& key, const Condition& otherwise, const s
                       closures::words_that_read<closures::FrictionLaws>(key), more)};
 }
 
-// Every key of a table, but for some.
-std::vector<std::string> keys_of_tables(const std::vector<std::string>& tables,
-                                        const std::vector<std::string>& but) {
+// What parts of the model that are of grains read beside the grains' material.
+std::vector<std::string> keys_of_grains() {
   std::vector<std::string> names;
   for (const case_file::Key& key : case_file::keys())
-    if (std::ranges::count(tables, key.table()) && !std::ranges::count(but, key.name))
-      names.push_back(key.name);
+    if (key.part->of_grains && key.table() != "solid") names.push_back(key.name);
   return names;
 }
 
@@ -81,16 +77,13 @@ std::vector<Idle> all_idle() {
                   drag = model(&Model::drag), agitated = model(&Model::agitation_drag);
   const Condition never = [](const Scene&) { return false; };
   const std::string without = no_effect;
-  // Also of fluids alone: the subgrid viscosity, and schemes.
-  std::vector<std::string> of_grains = keys_of_tables({"model", "contact"}, {"model.les", "model.preset"});
-  for (const char* key : {"numerics.bed_surface", "numerics.contact_pressure"}) of_grains.emplace_back(key);
   return {
-      {of_grains, has_grains, without + "grains: a [bed], or an inlet of them"},
+      {keys_of_grains(), has_grains, without + "grains: a [bed], or an inlet of them"},
       {{"tank.inclination"}, [](const Scene& s) { return s.gravity > 0.0; }, without + "tank.gravity"},
       {{"model.drag_law"}, any_of({drag, agitated}), without + "model.drag"},
       {{"model.agitation_drag"}, drag, "it is drag too, which model.drag = false leaves out everywhere else"},
       {{"model.kinetic_viscosity"},
-       [](const Scene& s) { return s.model.granular_temperature != TemperatureModel::off; },
+       [](const Scene& s) { return closures::agitates(s.model.granular_temperature); },
        without + "model.granular_temperature"},
       {{"model.granular_temperature"},
        model(&Model::kinetic_viscosity),
@@ -126,9 +119,7 @@ std::vector<Idle> all_idle() {
         "model.dilatancy_friction"},
        shear,
        without + "model.shear_dilatancy"},
-      {{"contact.dilatancy_rate"},
-       critical_by_rate,
-       without + "model.shear_dilatancy and model.critical_packing = \"by-rate\""},
+      of_critical_packing("contact.dilatancy_rate"),
       {{"model.viscous_contact_pressure", "model.suspension_viscosity"},
        has_liquid,
        "it is of grains in a viscous liquid, and the scene has none"},

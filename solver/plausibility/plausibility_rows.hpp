@@ -101,12 +101,6 @@ inline double shortest_of_bed(const Scene& s) {
   for (int axis = 0; axis < s.dimensions; ++axis) shortest = std::min(shortest, extent(s.bed->box, axis));
   return shortest;
 }
-inline bool is_inlet_of_grains(const Side& side) {
-  return side.kind == SideKind::inlet && side.inflow.solid_fraction > 0.0;
-}
-inline bool has_grains(const Scene& s) {
-  return s.bed || std::ranges::any_of(s.sides, is_inlet_of_grains);
-}
 
 inline double smallest_cell(const Scene& s) {
   return *std::min_element(s.grid.spacing.begin(), s.grid.spacing.begin() + s.dimensions);

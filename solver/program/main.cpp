@@ -28,6 +28,7 @@
 #include "solver/scene/cost_estimate.hpp"
 #include "solver/scene/duration.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/parts.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/restate.hpp"
 
@@ -91,6 +92,16 @@ void require_alone(const CLI::App& app, const granvof::Communicator* processes) 
                       command->get_name(), processes->size()));
 }
 
+std::string names_of(const std::vector<const granvof::Part*>& parts) {
+  std::string text;
+  for (const granvof::Part* part : parts) {
+    const std::string equations = granvof::text_of_equations(part->equations);
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : "; ", part->name, equations.empty() ? "" : " ",
+                        equations);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
 int check(const Arguments& arguments) {
   const granvof::Scene scene = load(arguments);
   if (!arguments.picture.empty()) {
@@ -101,8 +112,11 @@ int check(const Arguments& arguments) {
   const granvof::CostEstimate cost = granvof::estimate_cost(scene);
   fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n", scene.name, cells[0], cells[1], cells[2],
              scene.times.end, scene.hash);
-  fmt::print("# estimated: {:.2g} steps, {:.2g} s on one core, {:.2g} MB\n\n{}", cost.steps,
-             cost.core_seconds, 1e-6 * granvof::memory_demand(scene), scene.resolved);
+  fmt::print("# estimated: {:.2g} steps, {:.2g} s on one core, {:.2g} MB\n", cost.steps, cost.core_seconds,
+             1e-6 * granvof::memory_demand(scene));
+  const granvof::PartsOfModel parts = granvof::parts_of_model(scene);
+  fmt::print("# model: {}\n# not in this scene: {}\n\n{}", names_of(parts.act), names_of(parts.rest),
+             scene.resolved);
   return 0;
 }
 

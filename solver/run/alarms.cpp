@@ -1,6 +1,7 @@
 #include "solver/run/alarms.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -67,52 +68,77 @@ double energy_created(const Scene& scene, const EnergyTerms& now) {
          (now.physical() + now.in_motion() + now.carried_out() + least_own_energy(scene));
 }
 
-void Alarms::watch(const char* monitor, double value, double limit, double time, const char* meaning) {
+void Alarms::watch(const Alarm& alarm, double value, double limit, double time) {
   if (value <= limit) return;
-  const auto found =
-      std::find_if(raised_.begin(), raised_.end(), [&](const Warning& w) { return w.monitor == monitor; });
+  const auto found = std::ranges::find(raised_, alarm.monitor, &Warning::monitor);
   if (found != raised_.end()) {
     found->value = std::max(found->value, value);
     return;
   }
-  raised_.push_back({monitor, time, value, limit, meaning});
-  spdlog::warn("{}: t = {:.6g} s: {} {:.3g}, limit {:g}: {}", scene_.name, time, monitor, value, limit,
-               meaning);
+  raised_.push_back({alarm.monitor, time, value, limit, alarm.meaning});
+  spdlog::warn("{}: t = {:.6g} s: {} {:.3g}, limit {:g}: {}", scene_.name, time, alarm.monitor, value, limit,
+               alarm.meaning);
+}
+
+std::span<const Alarm> Alarms::list() {
+  static constexpr std::array all{
+      Alarm{"solid volume", parts::grains_transport, "grains are lost or made",
+            [](const Watched& w) { return w.monitors.solid_volume_error(); },
+            [](const Watched&) { return largest_volume_error; }},
+      Alarm{"liquid volume", parts::interface, "liquid is lost or made",
+            [](const Watched& w) { return w.monitors.liquid_volume_error(); },
+            [](const Watched&) { return largest_volume_error; }},
+      Alarm{"solid fraction", parts::solid_pressure, "denser than contact.solid_fraction_max",
+            [](const Watched& w) { return w.monitors.solid_fraction_max(); },
+            [](const Watched& w) { return w.scene.contact.solid_fraction_max; }},
+      Alarm{"negative fraction", parts::grains_transport, "a cell holds less than nothing",
+            [](const Watched& w) { return -w.monitors.solid_fraction_min(); },
+            [](const Watched&) { return -lowest_fraction; }},
+      Alarm{"energy residual", parts::ledger,
+            "momentum or continuity is not solved well enough, or an operator misstates its work: the energy "
+            "budget does not close",
+            [](const Watched& w) { return std::fabs(w.state.energy.residual) / w.turnover; },
+            [](const Watched&) { return largest_energy_residual; }},
+      Alarm{"energy created", parts::ledger,
+            "numerics or the uncharged work of P_s^EF give the flow energy from nothing",
+            [](const Watched& w) { return energy_created(w.scene, w.state.energy); },
+            [](const Watched&) { return largest_energy_created; }},
+      Alarm{"elastic start", parts::solid_pressure,
+            "the bed starts so dense that its contacts hold more energy than its height: it springs apart, "
+            "and how far depends on contact.stiffness and on the first steps",
+            [](const Watched& w) {
+              return w.start.elastic / std::max(energy_of_bed(w.scene), least_energy(w.scene, w.start));
+            },
+            [](const Watched&) { return largest_elastic_start; }},
+      Alarm{
+          "outlet load", parts::outlet,
+          "grains lean on an outlet, which holds them: they leave at the speed at which they arrive, not by "
+          "their own weight",
+          [](const Watched& w) { return w.monitors.outlet_load(w.state) / scales_of(w.scene).pressure; },
+          [](const Watched&) { return largest_outlet_load; }},
+      Alarm{"granular bounds", parts::granular_temperature, "Theta runs into its stated bounds",
+            [](const Watched& w) { return w.state.energy.theta_bounds / w.turnover; },
+            [](const Watched&) { return largest_share_of_bounds; }},
+      Alarm{"friction solves", parts::friction, "friction solves did not converge",
+            [](const Watched& w) { return static_cast<double>(w.counts.unconverged_friction); },
+            [](const Watched& w) {
+              return std::max(1.0, unconverged_share * static_cast<double>(w.counts.steps));
+            }},
+      Alarm{"refused steps", parts::time_step,
+            "steps are tried in vain: numerics.newton_max, cfl or dt_max do not suit the flow",
+            [](const Watched& w) { return static_cast<double>(w.counts.refused); },
+            [](const Watched& w) {
+              return std::max(few_refused,
+                              refused_share * static_cast<double>(w.counts.steps + w.counts.refused));
+            }},
+  };
+  return all;
 }
 
 std::string Alarms::check(const State& s, const Monitors& monitors, const StepCounts& counts) {
-  const auto look = [&](const char* monitor, double value, double limit, const char* meaning) {
-    watch(monitor, value, limit, s.time, meaning);
-  };
   const EnergyTerms& e = s.energy;
-  const double turnover = energy_turnover(scene_, start_, e);
-  look("solid volume", monitors.solid_volume_error(), largest_volume_error, "grains are lost or made");
-  look("liquid volume", monitors.liquid_volume_error(), largest_volume_error, "liquid is lost or made");
-  look("solid fraction", monitors.solid_fraction_max(), scene_.contact.solid_fraction_max,
-       "denser than contact.solid_fraction_max");
-  look("negative fraction", -monitors.solid_fraction_min(), -lowest_fraction,
-       "a cell holds less than nothing");
-  look("energy residual", std::fabs(e.residual) / turnover, largest_energy_residual,
-       "momentum or continuity is not solved well enough, or an operator misstates its work: the energy "
-       "budget does not close");
-  look("energy created", energy_created(scene_, e), largest_energy_created,
-       "numerics or the uncharged work of P_s^EF give the flow energy from nothing");
-  look("elastic start", start_.elastic / std::max(energy_of_bed(scene_), least_energy(scene_, start_)),
-       largest_elastic_start,
-       "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
-       "how far depends on contact.stiffness and on the first steps");
-  look("outlet load", monitors.outlet_load(s) / scales_of(scene_).pressure, largest_outlet_load,
-       "grains lean on an outlet, which holds them: they leave at the speed at which they arrive, not by "
-       "their "
-       "own weight");
-  look("granular bounds", e.theta_bounds / turnover, largest_share_of_bounds,
-       "Theta runs into its stated bounds");
-  look("friction solves", static_cast<double>(counts.unconverged_friction),
-       std::max(1.0, unconverged_share * static_cast<double>(counts.steps)),
-       "friction solves did not converge");
-  look("refused steps", static_cast<double>(counts.refused),
-       std::max(few_refused, refused_share * static_cast<double>(counts.steps + counts.refused)),
-       "steps are tried in vain: numerics.newton_max, cfl or dt_max do not suit the flow");
+  const Watched watched{scene_, start_, s, energy_turnover(scene_, start_, e), monitors, counts};
+  for (const Alarm& alarm : list()) watch(alarm, alarm.value(watched), alarm.limit(watched), s.time);
   // In an inclined tank the potential counts from the upper end and may be negative: its size is what counts.
   const double given =
       std::fabs(start_.stored()) + e.walls + std::max(-e.outflow, 0.0) + least_energy(scene_, start_);

@@ -5,6 +5,7 @@
 // worst value. A run that has more energy in motion than it was ever given is stopped.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,30 @@ struct StepCounts {
   std::int64_t steps = 0, unconverged_friction = 0, refused = 0;
 };
 
+// What alarms look at, after an accepted step.
+struct Watched {
+  const Scene& scene;
+  const EnergyTerms& start;
+  const State& state;
+  double turnover;  // energy_turnover() of the state [J]
+  const Monitors& monitors;
+  const StepCounts& counts;
+};
+
+struct Alarm {
+  const char* monitor;
+  const Part& part;  // of whose work it speaks
+  const char* meaning;
+  double (*value)(const Watched&);
+  double (*limit)(const Watched&);  // which the value must not exceed
+};
+
 class Alarms {
  public:
   Alarms(const Scene& scene, const EnergyTerms& start);
+
+  // Every alarm there is, but the one that stops a run: see check().
+  static std::span<const Alarm> list();
 
   // After an accepted step. Returns why the run must stop, or nothing.
   std::string check(const State& s, const Monitors& monitors, const StepCounts& counts);
@@ -40,8 +62,7 @@ class Alarms {
   void restore(std::vector<Warning> raised) { raised_ = std::move(raised); }
 
  private:
-  // value must not exceed limit
-  void watch(const char* monitor, double value, double limit, double time, const char* meaning);
+  void watch(const Alarm& alarm, double value, double limit, double time);
 
   const Scene& scene_;
   EnergyTerms start_;

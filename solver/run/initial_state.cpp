@@ -48,7 +48,10 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
       const double half = 0.5 * (weight(j) - per_grain * s.f_s[c]);
       if (s.f_s[c] > scene.contact.solid_fraction_min) {
         s.p_s[c] = std::max(p + half, 0.0);
-        s.packing[c] = closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact);
+        s.packing[c] = scene.model.packing_at_start().with([&](auto law) {
+          return law.at_start([&] { return closures::packing_that_bears(s.p_s[c], s.f_s[c], scene.contact); },
+                              scene.contact);
+        });
       }
       p += 2.0 * half;
     }

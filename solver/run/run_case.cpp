@@ -18,6 +18,7 @@
 #include "solver/run/closing_line.hpp"
 #include "solver/run/cut.hpp"
 #include "solver/run/memory_demand.hpp"
+#include "solver/run/monitor_table.hpp"
 #include "solver/run/progress_line.hpp"
 #include "solver/run/run_log.hpp"
 #include "solver/run/snapshot.hpp"
@@ -36,14 +37,9 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 std::vector<Column> monitor_columns() {
-  std::vector<Column> columns{
-      {"dt", "s", "last time step"},
-      {"newton", "-", "Newton iterations of the last step"},
-      {"linear", "-", "iterations of the coupled pressure solver in the last step"},
-      {"friction_iterations", "-", "iterations of the friction solver in the last step"},
-      {"solid_volume_error", "-", "largest relative change of the solid volume so far"},
-      {"liquid_volume_error", "-",
-       "largest relative change of the liquid volume so far, outflow accounted for"}};
+  std::vector<Column> columns;
+  for (const MonitorEntry& monitor : monitors_of_a_step())
+    columns.push_back({monitor.name, monitor.unit, monitor.meaning});
   for (const EnergyTerm& term : energy_terms) columns.push_back({term.name, "J", term.meaning});
   return columns;
 }
@@ -51,8 +47,8 @@ std::vector<Column> monitor_columns() {
 std::vector<LedgerTerm> ledger() {
   std::vector<LedgerTerm> terms;
   for (const EnergyTerm& term : energy_terms)
-    terms.push_back({term.name, name_of(term.kind), term.sign, term.never_gains, term.label, term.meaning,
-                     term.measured_in});
+    terms.push_back({term.name, term.part.name, name_of(term.kind), term.sign, term.never_gains, term.label,
+                     term.meaning, term.measured_in});
   return terms;
 }
 
@@ -102,6 +98,7 @@ class Run {
   // Rows and fields after the state before the last step, at the start those of the start.
   void write_output(bool at_start, const std::vector<DueOutput>& due_now);
   void log_traffic() const;
+  RunSoFar so_far() const { return {loop_, scene_, start_energy_}; }
   RunProgress progress() const;
   int finish(const Ending& ending);
   int give_up(ExitKind kind, const std::string& reason);
@@ -132,7 +129,8 @@ class Run {
 };
 
 RunWriter Run::open_writer() {
-  const RunStart start{"granvof", options_.command, processes_of(options_), options_.threads, ledger()};
+  const RunStart start{"granvof",        options_.command, processes_of(options_),
+                       options_.threads, ledger(),         parts_of_model(scene_).act};
   if (!options_.resume)
     return RunWriter::fresh(options_.out, scene_, start, monitor_columns(), options_.force);
   ResumedRun resumed = RunWriter::resume(options_.out, scene_, start, monitor_columns());
@@ -150,18 +148,13 @@ RunWriter Run::open_writer() {
 // the two states; monitors are those of that step.
 void Run::write_output(bool at_start, const std::vector<DueOutput>& due_now) {
   if (due_now.empty()) return;
-  const StepReport& last = loop_.last_step();
   const State& now = loop_.whole_now();
   const State& earlier = at_start ? now : loop_.whole_before();
   for (const DueOutput& due : due_now) {
     const CellFields fields = cell_fields(loop_.whole_grid(), earlier, now, due.time);
     if (due.row) {
-      std::vector<Value> row{loop_.last_dt(),
-                             static_cast<double>(last.pressure.newton),
-                             static_cast<double>(last.pressure.linear),
-                             static_cast<double>(last.friction.iterations),
-                             loop_.monitors().solid_volume_error(),
-                             loop_.monitors().liquid_volume_error()};
+      std::vector<Value> row;
+      for (const MonitorEntry& monitor : monitors_of_a_step()) row.emplace_back(monitor.value(so_far()));
       const EnergyTerms energy = energy_terms_at(earlier, now, due.time);
       for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
       last_row_ = extract_scalars(fields, scene_);
@@ -186,14 +179,7 @@ RunProgress Run::progress() const {
   p.solid_volume_error = monitors.solid_volume_error();
   p.liquid_volume_error = monitors.liquid_volume_error();
   p.solid_fraction_max = monitors.solid_fraction_max();
-  const double steps = std::max<double>(1.0, static_cast<double>(counters.steps));
-  p.monitors = {{"newton_per_step", static_cast<double>(counters.newton) / steps},
-                {"linear_per_step", static_cast<double>(counters.linear) / steps},
-                {"friction_per_step", static_cast<double>(counters.friction) / steps},
-                {"unconverged_friction_solves", static_cast<double>(counters.unconverged_friction)},
-                {"last_dt", loop_.last_dt()},
-                {"energy_turnover", energy_turnover(scene_, start_energy_, energy)},
-                {"energy_created", energy_created(scene_, energy)}};
+  for (const MonitorEntry& monitor : monitors_of_a_run()) p.monitors[monitor.name] = monitor.value(so_far());
   for (const EnergyTerm& term : energy_terms) p.monitors[term.name] = energy.*term.value;
   p.warnings = alarms_.raised();
   return p;

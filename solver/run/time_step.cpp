@@ -20,29 +20,49 @@ constexpr double largest_solid_fraction = 0.66;  // beyond it the step's packing
 }  // namespace
 
 std::span<const TimeStep::Stage> TimeStep::stages() {
+  using namespace parts;
   static constexpr std::array list{
-      Stage{"closures", "(8)-(15), (18)-(21)",
+      Stage{"closures",
+            {&drag, &fluid_viscosity, &solid_pressure, &kinetic_stress, &friction},
             "laws of the old level: inertia of faces, restitution, solid pressure, drag, fluid viscosity, "
             "kinetic viscosity at a predicted Theta",
             &TimeStep::close},
-      Stage{"predictor", "(5), (6), (10)",
+      Stage{"predictor",
+            {&momentum, &fluid_viscosity},
             "explicit: convection, gravity, fluid viscosity, the fluid's old pressure gradient",
             &TimeStep::predict},
-      Stage{"friction", "(6), (16), (17)", "implicit: solid stress and drag, the fluid eliminated",
+      Stage{"friction",
+            {&momentum, &kinetic_stress, &friction, &drag, &bed_surface},
+            "implicit: solid stress and drag, the fluid eliminated",
             &TimeStep::shear_solid},
-      Stage{"fluid viscosity", "(5), (10)", "implicit, where the step is too long for the explicit term",
-            &TimeStep::diffuse_fluid, &TimeStep::outruns_explicit_viscosity},
-      Stage{"pressure", "(1), (4)-(6), (11)-(15)", "Newton on both pressures, drag within", &TimeStep::press},
-      Stage{"transport", "(4)",
+      Stage{"fluid viscosity",
+            {&momentum, &fluid_viscosity},
+            "implicit, where the step is too long for the explicit term",
+            &TimeStep::diffuse_fluid,
+            &TimeStep::outruns_explicit_viscosity},
+      Stage{"pressure",
+            {&pressure, &momentum, &drag, &solid_pressure, &viscous_contacts},
+            "Newton on both pressures, drag within",
+            &TimeStep::press},
+      Stage{"transport",
+            {&pressure},
             "fluxes that empty no cell; what is left of continuity is taken off the fluid's",
             &TimeStep::balance_fluxes},
-      Stage{"transport", "(1), (25)", "grains, their colour and packing", &TimeStep::carry_solid},
-      Stage{"transport", "(2), (3), (24)", "liquid and gas", &TimeStep::carry_liquid},
-      Stage{"packing", "", "by the shear of the step, with shear dilatancy", &TimeStep::pack,
+      Stage{"transport",
+            {&grains_transport, &packing},
+            "grains, their colour and packing",
+            &TimeStep::carry_solid},
+      Stage{"transport", {&interface}, "liquid and gas", &TimeStep::carry_liquid},
+      Stage{"packing",
+            {&packing},
+            "by the shear of the step, with shear dilatancy",
+            &TimeStep::pack,
             &TimeStep::packing_follows_shear},
-      Stage{"granular temperature", "(7), (22), (23)", "fed by what the kinetic stress spent",
+      Stage{"granular temperature",
+            {&granular_temperature, &kinetic_stress},
+            "fed by what the kinetic stress spent",
             &TimeStep::agitate},
-      Stage{"energy budget", "", "what every stage did to the energy", &TimeStep::account},
+      Stage{"energy budget", {&ledger}, "what every stage did to the energy", &TimeStep::account},
   };
   return list;
 }
@@ -53,7 +73,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   Attempt step{now, dt, next, extra};
   for (const Stage& stage : stages()) {
     if (stage.due != nullptr && !(this->*stage.due)(step)) continue;
-    cost_.time(stage.part, [&] { (this->*stage.run)(step); });
+    cost_.time(stage.cost, [&] { (this->*stage.run)(step); });
     if (!step.report.refused_because.empty()) return step.report;
   }
   step.report.accepted = true;
@@ -99,7 +119,7 @@ void TimeStep::close(Attempt& step) {
   const State& now = step.now;
   move_gate(step.next.time);
   inertia_.update(grid_, scene_, now.f_s, now.alpha);
-  const bool agitated = scene_.model.granular_temperature != TemperatureModel::off;
+  const bool agitated = closures::agitates(scene_.model.granular_temperature);
   if (agitated || scene_.model.viscous_contact_pressure)
     strain_.update(grid_, boundary_.walls(), now.u_strain);
   rheology_.update(grid_, scene_, boundary_, now, strain_);
@@ -191,7 +211,7 @@ void TimeStep::carry_solid(Attempt& step) {
 }
 
 void TimeStep::carry_liquid(Attempt& step) {
-  step.passed = &interface_.advance(step.dt, step.now.alpha, step.now.f_s, flux_c_, step.next.alpha);
+  step.passed = &interface_.advance(step.dt, step.now, flux_c_, step.next);
   step.report.liquid_left = step.passed->total(grid_);
   set_pressure_level(grid_, scene_, step.next.alpha, step.next.p_c);
 }

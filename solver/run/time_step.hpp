@@ -1,6 +1,7 @@
 // One time step of the gas-liquid-solid model: a list of stages, each an operator or a few.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,8 +51,8 @@ class TimeStep {
     GranularLosses granular{};
   };
   struct Stage {
-    const char* part;                                       // of the cost that it counts to
-    const char* equations;                                  // of the paper that it serves, if any
+    const char* cost;                                       // part of the cost that it counts to
+    std::array<const Part*, 5> parts;                       // of the model that it serves, then nulls
     const char* does;                                       // in a line
     void (TimeStep::*run)(Attempt&);                        // states why the step is refused, if it is
     bool (TimeStep::*due)(const Attempt&) const = nullptr;  // always, if null

@@ -122,6 +122,15 @@ Key key(std::string name, std::string unit, const Range& range, Access access, s
   return k;
 }
 
+// The same of another part than its [table]'s, or of a table whose keys are of many.
+template <class Access>
+Key key(const Part& owner, std::string name, std::string unit, const Range& range, Access access,
+        std::string help) {
+  Key k = key(std::move(name), std::move(unit), range, access, std::move(help));
+  k.part = &owner;
+  return k;
+}
+
 inline Key required(Key k) {
   k.otherwise.clear();
   return k;
@@ -189,6 +198,13 @@ Key choice(std::string name, Words<Enum> words, Access access, std::string help)
   };
   k.otherwise = k.get(Draft{});
   if (k.otherwise.empty()) k.otherwise = "none";
+  return k;
+}
+
+template <class Enum, class Access>
+Key choice(const Part& owner, std::string name, Words<Enum> words, Access access, std::string help) {
+  Key k = choice(std::move(name), std::move(words), access, std::move(help));
+  k.part = &owner;
   return k;
 }
 

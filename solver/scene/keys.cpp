@@ -25,16 +25,18 @@ std::vector<Key> scene_keys() {
       required(key("scene.name", "", any, MEMBER(scene.name), "Name of the case; equals the file's stem.")),
       otherwise(key("scene.title", "", any, MEMBER(scene.title), "One line for plots and reports."),
                 "scene.name"),
-      scoped(key("scene.dimensions", "-", Range{.lower = 2, .upper = 3}, MEMBER(scene.dimensions), "2 or 3."),
+      scoped(key(parts::grid, "scene.dimensions", "-", Range{.lower = 2, .upper = 3},
+                 MEMBER(scene.dimensions), "2 or 3."),
              Scope::setup),
       required(
           key("tank.size", "m", positive, MEMBER(tank_size), "Inner size [x, y] in 2D, [x, y, z] in 3D.")),
       otherwise(
           key("tank.depth", "m", positive, MEMBER(depth), "2D only: depth that results are stated for."),
           "1"),
-      key("tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity), "Acts against y in a level tank."),
+      key(parts::momentum, "tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity),
+          "Acts against y in a level tank."),
       came_later(
-          key("tank.inclination", "degrees",
+          key(parts::momentum, "tank.inclination", "degrees",
               Range{.lower = -90.0, .upper = 90.0, .lower_open = true, .upper_open = true},
               MEMBER(scene.inclination),
               "Of the floor, down towards +x: g = gravity (sin, -cos). Levels and beds stay along x.")),
@@ -47,18 +49,22 @@ std::vector<Key> scene_keys() {
 std::vector<Key> material_keys() {
   return {
       required(key("gas.density", "kg/m3", positive, MEMBER(scene.gas.density), "rho_g.")),
-      required(key("gas.viscosity", "Pa s", not_negative, MEMBER(scene.gas.viscosity), "mu_g.")),
+      required(key(parts::fluid_viscosity, "gas.viscosity", "Pa s", not_negative, MEMBER(scene.gas.viscosity),
+                   "mu_g.")),
       required(key("liquid.density", "kg/m3", positive, MEMBER(scene.liquid.density), "rho_l.")),
-      required(key("liquid.viscosity", "Pa s", not_negative, MEMBER(scene.liquid.viscosity), "mu_l.")),
-      key("liquid.level", "m", positive, MEMBER(level),
+      required(key(parts::fluid_viscosity, "liquid.viscosity", "Pa s", not_negative,
+                   MEMBER(scene.liquid.viscosity), "mu_l.")),
+      key(parts::start, "liquid.level", "m", positive, MEMBER(level),
           "Liquid fills the tank up to here, the bed's pores included."),
-      key("liquid.box.origin", "m", not_negative, MEMBER(box_origin), "Lower corner of a box of liquid."),
-      key("liquid.box.size", "m", positive, MEMBER(box_size), "Size of that box."),
+      key(parts::start, "liquid.box.origin", "m", not_negative, MEMBER(box_origin),
+          "Lower corner of a box of liquid."),
+      key(parts::start, "liquid.box.size", "m", positive, MEMBER(box_size), "Size of that box."),
       required(key("solid.density", "kg/m3", positive, MEMBER(scene.solid.density), "rho_s.")),
       required(key("solid.diameter", "m", positive, MEMBER(scene.solid.diameter), "d_s.")),
-      key("solid.restitution", "-", share, MEMBER(scene.solid.restitution), "e0 of eq (18)."),
-      required(
-          key("solid.friction", "-", not_negative, MEMBER(scene.solid.friction), "eta_s = tan(theta_s).")),
+      key(parts::kinetic_stress, "solid.restitution", "-", share, MEMBER(scene.solid.restitution),
+          "e0 of eq (18)."),
+      required(key(parts::friction, "solid.friction", "-", not_negative, MEMBER(scene.solid.friction),
+                   "eta_s = tan(theta_s).")),
   };
 }
 
@@ -108,7 +114,7 @@ std::vector<Key> time_keys() {
       choice("time.unit", Words<TimeUnit>{{"s", TimeUnit::second}, {"column", TimeUnit::column}},
              MEMBER(times.unit),
              "Unit of time.end and of [output]'s times: seconds, or sqrt(h0/g) of the bed."),
-      scoped(key("time.hold", "s", not_negative, MEMBER(times.hold),
+      scoped(key(parts::gate, "time.hold", "s", not_negative, MEMBER(times.hold),
                  "Held behind the closed gate before t = 0."),
              Scope::setup),
       otherwise(key("output.series_interval", unit, positive, MEMBER(times.series_interval),
@@ -137,32 +143,34 @@ std::vector<Key> numerics_keys() {
   const Words<ContactPressure> contact_pressures{{"implicit", ContactPressure::implicit},
                                                  {"explicit", ContactPressure::explicit_}};
   return {
-      key("numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
+      key(parts::time_step, "numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
           MEMBER(scene.numerics.cfl), "Convective Courant number of a step."),
-      otherwise(key("numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max), "Longest step."),
+      otherwise(key(parts::time_step, "numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max),
+                    "Longest step."),
                 "0.07 sqrt(h/g), h the height of the bed, else of the liquid, else of the tank"),
-      otherwise(key("numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
+      otherwise(key(parts::time_step, "numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
                     "A refused step that would be shorter ends the run; at most dt_max."),
                 "2e-7 dt_max"),
-      choice("numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
+      choice(parts::momentum, "numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
              "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded; "
              "that of a gas over a liquid stays of first order."),
       choice(
-          "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
+          parts::bed_surface, "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
           "Contact needs f_s,min in the whole cell (the paper), or grains that fill a part of a cell at the "
           "bed's surface bear their own weight, and friction by it."),
-      choice("numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
+      choice(parts::interface, "numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
              "Flux of alpha in (24): compressive (the paper), geometric with split sweeps, or first order."),
       choice(
-          "numerics.contact_pressure", contact_pressures, MEMBER(scene.numerics.contact_pressure),
+          parts::solid_pressure, "numerics.contact_pressure", contact_pressures,
+          MEMBER(scene.numerics.contact_pressure),
           "P_s of the new solid fraction; or of the old one, with steps below the elastic waves' limit: for "
           "comparison."),
-      key("numerics.volume_tolerance", "-", part, MEMBER(scene.numerics.volume_tolerance),
+      key(parts::pressure, "numerics.volume_tolerance", "-", part, MEMBER(scene.numerics.volume_tolerance),
           "Largest volume error of a cell in one step, as a share of the cell."),
-      key("numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),
+      key(parts::pressure, "numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),
           "Residual reduction of one linear solve inside Newton."),
-      key("numerics.newton_max", "-", Range{.lower = 4, .upper = 1000}, MEMBER(scene.numerics.newton_max),
-          "Most Newton iterations of a step."),
+      key(parts::pressure, "numerics.newton_max", "-", Range{.lower = 4, .upper = 1000},
+          MEMBER(scene.numerics.newton_max), "Most Newton iterations of a step."),
   };
 }
 
@@ -228,6 +236,7 @@ std::vector<Key> all_keys() {
   const auto add = [&](std::vector<Key> list) {
     for (Key& k : list) {
       if (k.scope == Scope::unset) k.scope = find_table(k.table())->scope;
+      if (k.part == nullptr) k.part = find_table(k.table())->part;
       if (set_by_a_preset(k.name)) k.otherwise = "model.preset's";
       all.push_back(std::move(k));
     }
@@ -252,25 +261,26 @@ std::vector<Key> all_keys() {
 
 const std::vector<Table>& tables() {
   static const std::vector<Table> list{
-      {"scene", Scope::label, false, "What the case is called."},
-      {"tank", Scope::setup, false, "The box that holds everything."},
-      {"grid", Scope::run, false, "Uniform cells."},
-      {"walls", Scope::setup, false,
+      {"scene", Scope::label, &parts::label, false, "What the case is called."},
+      {"tank", Scope::setup, &parts::grid, false, "The box that holds everything."},
+      {"grid", Scope::run, &parts::grid, false, "Uniform cells."},
+      {"walls", Scope::setup, &parts::walls, false,
        "What each side of the tank does, as one word or as a table of its own."},
-      {"gas", Scope::setup, false, "The gas."},
-      {"liquid", Scope::setup, true, "The liquid; a case may have none."},
-      {"solid", Scope::setup, true, "The grains; a case may have none."},
-      {"contact", Scope::model, false, "Enduring contact, (13)-(17); the defaults are the paper's."},
-      {"bed", Scope::setup, true, "Where the grains are at the start; needs [solid]."},
-      {"gate", Scope::setup, true,
+      {"gas", Scope::setup, &parts::materials, false, "The gas."},
+      {"liquid", Scope::setup, &parts::materials, true, "The liquid; a case may have none."},
+      {"solid", Scope::setup, &parts::materials, true, "The grains; a case may have none."},
+      {"contact", Scope::model, nullptr, false, "Enduring contact, (13)-(17); the defaults are the paper's."},
+      {"bed", Scope::setup, &parts::start, true, "Where the grains are at the start; needs [solid]."},
+      {"gate", Scope::setup, &parts::gate, true,
        "A vertical plate that holds the bed, and along which both phases slip; needs [bed]."},
-      {"obstacle", Scope::setup, true,
+      {"obstacle", Scope::setup, &parts::obstacles, true,
        "Boxes that no phase enters, [[obstacle]] as often as there are; or one [obstacle] with lists.", true},
-      {"time", Scope::run, false, "Length of the run."},
-      {"model", Scope::model, false, "What is modelled; each switch removes one physical part."},
-      {"numerics", Scope::run, false, "How it is computed."},
-      {"output", Scope::run, false, "What is written, and when."},
-      {"reference", Scope::reference, true, "The DEM-VOF run of the same scene; needs [bed]."},
+      {"time", Scope::run, &parts::time_step, false, "Length of the run."},
+      {"model", Scope::model, nullptr, false, "What is modelled; each switch removes one physical part."},
+      {"numerics", Scope::run, nullptr, false, "How it is computed."},
+      {"output", Scope::run, &parts::output, false, "What is written, and when."},
+      {"reference", Scope::reference, &parts::reference, true,
+       "The DEM-VOF run of the same scene; needs [bed]."},
   };
   return list;
 }

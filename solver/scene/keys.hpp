@@ -8,6 +8,7 @@
 
 #include "solver/scene/case_text.hpp"
 #include "solver/scene/draft.hpp"
+#include "solver/scene/parts.hpp"
 
 namespace granvof::case_file {
 
@@ -24,7 +25,8 @@ enum class Scope {
 struct Table {
   std::string name;
   Scope scope = Scope::setup;
-  bool optional = false;  // a case may leave it out; its required keys are required only where it stands
+  const Part* part = nullptr;  // whose its keys are that name no part themselves; none: each names its own
+  bool optional = false;       // a case may leave it out; its required keys are required only where it stands
   std::string help;
   bool many = false;  // may stand as [[name]], as often as there are such things: its keys are lists
 };
@@ -39,7 +41,8 @@ struct Key {
   std::string otherwise;  // what holds where the key is absent; empty: the key is required
   std::string help;
   Scope scope = Scope::unset;
-  bool documented = true;  // false for the sides after the first: they share one row
+  const Part* part = nullptr;  // whose key it is; while the table is built none: that of its [table]
+  bool documented = true;      // false for the sides after the first: they share one row
   // Value at which the key stays out of the hashes. For a key that came when there were records: a case that
   // does not use it is the case that was recorded. Empty: the key is in the hash at any value.
   std::string unhashed = {};

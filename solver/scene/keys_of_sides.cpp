@@ -48,18 +48,20 @@ std::vector<Key> side_keys(int side) {
       otherwise(
           key(name + ".velocity", "m/s", any, input(&SideInput::velocity), "Of the wall, in its own plane."),
           "at rest"),
-      came_later(key(name + ".inflow", "m/s", positive, input(&SideInput::inflow),
+      came_later(key(parts::inlet, name + ".inflow", "m/s", positive, input(&SideInput::inflow),
                      "Makes the side an inlet: speed at which both phases come in. Not for all.")),
-      came_later(key(name + ".inflow_solid_fraction", "-", share, input(&SideInput::inflow_solid_fraction),
+      came_later(key(parts::inlet, name + ".inflow_solid_fraction", "-", share,
+                     input(&SideInput::inflow_solid_fraction),
                      "Of what comes in; at 0 the grains of the tank find a closed wall there.")),
-      otherwise(came_later(key(name + ".inflow_liquid_share", "-", share,
+      otherwise(came_later(key(parts::inlet, name + ".inflow_liquid_share", "-", share,
                                input(&SideInput::inflow_liquid_share), "alpha of what comes in.")),
                 "1 with a [liquid], else 0"),
-      came_later(key(name + ".outflow_pressure", "Pa", any, input(&SideInput::outflow_pressure),
+      came_later(key(parts::outlet, name + ".outflow_pressure", "Pa", any,
+                     input(&SideInput::outflow_pressure),
                      "Makes the side an outlet: P_c at its upper end, below it with the weight of fluid at "
                      "rest. Grains leave, and none come in. Not for all.")),
-      otherwise(came_later(key(name + ".outflow_level", "m", not_negative, input(&SideInput::outflow_level),
-                               "Of the liquid beyond that outlet.")),
+      otherwise(came_later(key(parts::outlet, name + ".outflow_level", "m", not_negative,
+                               input(&SideInput::outflow_level), "Of the liquid beyond that outlet.")),
                 "liquid.level, else 0"),
   };
   for (Key& k : list) k.documented = side == 0;

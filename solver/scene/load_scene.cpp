@@ -47,17 +47,20 @@ std::string keys_reference() {
   std::string page = "# Keys of a case file\n";
   for (const case_file::Table& table : case_file::tables()) {
     page += fmt::format("\n## [{}]{}\n{}\n\n", table.name, table.optional ? " (optional)" : "", table.help);
-    page += "| key | allowed | default | what |\n|---|---|---|---|\n";
+    page += "| key | allowed | default | part | what |\n|---|---|---|---|---|\n";
     for (const case_file::Key& key : case_file::keys()) {
       if (!key.documented || key.table() != table.name) continue;
       std::string name = key.name.substr(table.name.size() + 1);
       if (table.name == "walls") name.replace(0, std::min(name.find('.'), name.size()), "SIDE");
       std::string allowed;
       for (const char c : key.allowed) allowed += c == '|' ? "or" : std::string(1, c);
-      page += fmt::format("| {} | {} | {} | {} |\n", name, allowed,
-                          key.required() ? "required" : key.otherwise, key.help);
+      page += fmt::format("| {} | {} | {} | {} | {} |\n", name, allowed,
+                          key.required() ? "required" : key.otherwise, key.part->name, key.help);
     }
   }
+  page += "\n## Parts\nWhose the keys are.\n\n| part | equations | described in |\n|---|---|---|\n";
+  for (const Part* part : all_parts())
+    page += fmt::format("| {} | {} | {} |\n", part->name, text_of_equations(part->equations), part->page);
   page += case_file::presets_reference();
   page +=
       "\nAt the top level `base = \"other.toml\"` takes over another case, table by table and key by key; "

@@ -11,9 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "solver/closures/critical_packing/laws.hpp"
 #include "solver/closures/drag/laws.hpp"
 #include "solver/closures/friction/laws.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/packing/laws.hpp"
 #include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/model/fluid.hpp"
 #include "solver/model/grains.hpp"
@@ -106,40 +109,34 @@ struct Gate {
 
 // --- what is modelled --------------------------------------------------------------------------------
 
-// The solid fraction at which grains touch: f_s,min everywhere (the paper), or what their bed was prepared
-// at, carried with them.
-enum class Packing { uniform, carried };
-
-// Each of a list: beta_c, the friction coefficient of (17), g0 of (19), and what mu_s^K and kappa_s^K hold.
+// Each of a list: the packing that shear drives a bed to, beta_c, the friction coefficient of (17), what
+// mu_s^K and kappa_s^K hold, the solid fraction at which grains touch, g0 of (19), and what of (7) is solved.
+using closures::CriticalPacking;
 using closures::DragLaw;
 using closures::FrictionLaw;
 using closures::KineticTransport;
+using closures::Packing;
 using closures::RadialDistribution;
-
-// The packing that shear drives a bed to: contact.critical_solid_fraction, or less of it the faster it
-// shears.
-enum class CriticalPacking { constant, by_rate };
-
-enum class TemperatureModel { transported, algebraic, off };
+using closures::TemperatureModel;
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
 struct Model {
   bool drag = true;  // eqs (8), (9)
   DragLaw drag_law;
-  bool les = true;                                                        // eq (10)
-  TemperatureModel granular_temperature = TemperatureModel::transported;  // eq (7)
-  bool pressure_work = true;       // -P_s^K div u_s in (7), see correction 2 of the model
-  bool dilatancy_pressure = true;  // P_s^EF, eq (14)
-  bool kinetic_viscosity = true;   // mu_s^K and zeta_s^K, eqs (20), (21)
+  bool les = true;                        // eq (10)
+  TemperatureModel granular_temperature;  // eq (7)
+  bool pressure_work = true;              // -P_s^K div u_s in (7), see correction 2 of the model
+  bool dilatancy_pressure = true;         // P_s^EF, eq (14)
+  bool kinetic_viscosity = true;          // mu_s^K and zeta_s^K, eqs (20), (21)
   RadialDistribution radial_distribution;
   KineticTransport kinetic_transport;
   bool correlated_collisions = false;  // dissipate less in dense flow, collisions.hpp
   bool contact_friction = true;        // tau_s^E, eq (17)
   FrictionLaw friction_law;
-  Packing packing = Packing::uniform;
+  Packing packing;
   bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
   bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
-  CriticalPacking critical_packing = CriticalPacking::constant;
+  CriticalPacking critical_packing;
   bool dilatancy_friction = true;         // tan(psi) of shear_dilatancy adds to friction
   bool viscous_contact_pressure = false;  // of grains that a liquid shears past each other, suspension.hpp
   bool suspension_viscosity = false;      // of the liquid between sheared grains, suspension.hpp
@@ -148,11 +145,15 @@ struct Model {
   bool colour = true;                     // eq (25)
 
   // Where grains touch is a field of the state, which a bed at rest starts with.
-  bool carries_packing() const { return packing == Packing::carried || shear_dilatancy; }
+  bool carries_packing() const { return closures::is_carried(packing_at_start()); }
+  // Shear dilatancy moves what is carried.
+  Packing packing_at_start() const {
+    return shear_dilatancy ? Packing::of<closures::PackingCarried>() : packing;
+  }
   // A law asks for the fluid's viscosity between the grains.
   bool has_viscous_contacts() const {
     return viscous_contact_pressure || closures::depends_on_pore_viscosity(friction_law) ||
-           (shear_dilatancy && critical_packing == CriticalPacking::by_rate);
+           (shear_dilatancy && closures::depends_on_rate(critical_packing));
   }
   bool operator==(const Model&) const = default;
 };

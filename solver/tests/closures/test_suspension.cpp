@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/closures/critical_packing/laws.hpp"
 #include "solver/closures/friction/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/closures/suspension.hpp"
@@ -55,12 +56,12 @@ TEST(ViscousFriction, GrowsFromRestToItsLimit) {
 
 TEST(CriticalPacking, FallsWithInertiaAndViscosityAlike) {
   const Contact beads;
-  EXPECT_EQ(critical_packing(0.0, beads), beads.critical_solid_fraction);
-  EXPECT_LT(critical_packing(0.1, beads), critical_packing(0.01, beads));
+  EXPECT_EQ(CriticalPackingByRate::packing(0.0, beads), beads.critical_solid_fraction);
+  EXPECT_LT(CriticalPackingByRate::packing(0.1, beads), CriticalPackingByRate::packing(0.01, beads));
   // without viscosity I^2 / 2 with I = 0.1, without inertia I_v
   EXPECT_NEAR(mixed_inertial_number(10.0, 25.0, 2500.0, 1e-3, 0.0), 0.005, 1e-15);
   EXPECT_NEAR(mixed_inertial_number(10.0, 25.0, 2500.0, 0.0, 0.01), 0.004, 1e-15);
-  EXPECT_NEAR(critical_packing(0.01, beads), beads.critical_solid_fraction / 1.1, 1e-15);
+  EXPECT_NEAR(CriticalPackingByRate::packing(0.01, beads), beads.critical_solid_fraction / 1.1, 1e-15);
 }
 
 TEST(CriticalPacking, DrivesNoFasterThanTheLargestDilatancy) {

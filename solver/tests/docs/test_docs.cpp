@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "solver/closures/critical_packing/laws.hpp"
 #include "solver/closures/drag/laws.hpp"
 #include "solver/closures/friction/laws.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/packing/laws.hpp"
 #include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/output/extract.hpp"
 #include "solver/tests/cases_directory.hpp"
@@ -48,6 +51,11 @@ TEST(Docs, NamesEachOtherLawOfAList) {
   expect_each_word_in<closures::FrictionLaws>(text);
   expect_each_word_in<closures::RadialDistributions>(text);
   expect_each_word_in<closures::KineticTransports>(text);
+  expect_each_word_in<closures::Packings>(text);
+  expect_each_word_in<closures::CriticalPackings>(text);
+  const std::string kinetic_theory = page("theory/kinetic-theory.md");
+  for (const closures::ClosureFacts& model : closures::TemperatureModels::facts)
+    EXPECT_NE(kinetic_theory.find(fmt::format("`{}`", model.word)), std::string::npos) << model.word;
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ struct Bed {
         aperture(s.grid, s.scene),
         inertia(s.grid),
         rheology(s.grid),
-        mass(s.grid),
-        rhs(s.grid),
-        u_strain(s.grid),
-        u(s.grid),
-        f_s(s.grid, 0.5),
-        friction(s.grid, s.scene, s.boundary) {}
+        balance(s.grid),
+        now(s.grid),
+        next(s.grid),
+        friction(s.grid, s.scene, s.boundary) {
+    f_s.fill(0.5);
+  }
   void fill() {
     s.boundary.fill_scalar(f_s);
     inertia.update(s.grid, s.scene, f_s, Field(s.grid, 1.0));
@@ -34,15 +34,24 @@ struct Bed {
     fill();
     s.boundary.fill_velocity(u_strain, Phase::solid);
     linear::Report report;
-    for (int i = 0; i < 6; ++i) report = friction.solve(mass, rhs, inertia, aperture, rheology, u_strain, u);
+    for (int i = 0; i < 6; ++i) report = friction.solve(balance, inertia, aperture, rheology, now, next);
     EXPECT_TRUE(report.converged) << report.initial << ' ' << report.final;
+  }
+  // Of the last solve, as if it had been solved for the velocity `of` and the step had led to `at`.
+  Friction::Power power(const FaceField& of, const FaceField& at, Field& kinetic) {
+    State state(s.grid);
+    state.u_strain = of;
+    state.u_s = at;
+    return friction.power(mass, state, kinetic);
   }
   Tank s;
   Aperture aperture;
   FaceInertia inertia;
   Rheology rheology;
-  FaceField mass, rhs, u_strain, u;
-  Field f_s;
+  SolidBalance balance;
+  State now, next;
+  FaceField &mass = balance.mass, &rhs = balance.rhs, &u_strain = now.u_strain, &u = next.u_s;
+  Field& f_s = now.f_s;
   Friction friction;
 };
 

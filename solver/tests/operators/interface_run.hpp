@@ -55,11 +55,14 @@ inline Carried carry(const Tank& s, const Field& start, const Field& f_s, const 
                      int steps) {
   omp_set_num_threads(1);  // small grids: threads that wait for each other cost more than they do
   InterfaceTransport transport(s.grid, s.scene, s.boundary);
-  Field alpha = start, next(s.grid);
+  State now(s.grid), next(s.grid);
+  Field& alpha = now.alpha;
+  alpha = start;
+  now.f_s = f_s;
   Carried result;
   for (int step = 0; step < steps; ++step) {
-    transport.advance(dt, alpha, f_s, flux, next);
-    std::swap(alpha, next);
+    transport.advance(dt, now, flux, next);
+    std::swap(alpha, next.alpha);
     s.boundary.fill_scalar(alpha, 0.0);
     result.least = std::fmin(result.least, s.smallest(alpha));
     result.most = std::fmax(result.most, s.largest(alpha));

@@ -94,8 +94,8 @@ TEST(BedSurface, GrainsAsHeavyAsTheFluidBearNothing) {
   for (int j = 0; j < rows; ++j) EXPECT_EQ(c.at(j), 0.0) << j;
 }
 
-// A bed that reaches the lid: nothing lies on its uppermost cell, as below a ceiling of obstacles. (The ghosts
-// beyond a lid hold what the cell holds, which lay on it.)
+// A bed that reaches the lid: nothing lies on its uppermost cell, as below a ceiling of obstacles. (The
+// ghosts beyond a lid hold what the cell holds, which lay on it.)
 TEST(BedSurface, NothingLiesOnTheCellUnderALid) {
   const Column bed({packed, packed, packed, packed, packed, packed, packed, 0.3}, 100.0);
   EXPECT_NEAR(bed.at(rows - 1), half_weight * 0.3, 1e-10);

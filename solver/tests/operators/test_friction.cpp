@@ -289,8 +289,8 @@ TEST(Friction, UniformShearTakesTheLawsPower) {
   Field kinetic(layer.s.grid);
   const double stress =
       closures::friction_viscosity(pressure, scene.solid.friction + dilatancy, 0.05, 0.5 * rate) * rate;
-  EXPECT_NEAR(layer.friction.power(layer.mass, layer.u, layer.u, kinetic).friction,
-              stress * rate * 0.04 * 0.16, 1e-4 * stress * rate * 0.04 * 0.16);
+  EXPECT_NEAR(layer.power(layer.u, layer.u, kinetic).friction, stress * rate * 0.04 * 0.16,
+              1e-4 * stress * rate * 0.04 * 0.16);
 }
 
 // Stretch without shear: a cell loses 2 mu (du/dx)^2, mu of the law (17) at ||S|| = sqrt(S:S / 2), S:S =
@@ -317,7 +317,7 @@ TEST(Friction, StretchTakesTheLawsPower) {
                 closures::friction_viscosity(pressure, scene.solid.friction, 0.05, stretch / std::sqrt(2.0));
   });
   Field kinetic(bed.s.grid);
-  EXPECT_NEAR(bed.friction.power(bed.mass, bed.u, bed.u, kinetic).friction, expected, 1e-6 * expected);
+  EXPECT_NEAR(bed.power(bed.u, bed.u, kinetic).friction, expected, 1e-6 * expected);
 }
 
 // In 3D the wall's stress opposes the sliding, at mu_w P_s in all and not in each direction.

@@ -45,7 +45,7 @@ TEST(FrictionOnBumps, WorkOfTheSlipHeatsTheGrains) {
   layer.set(500.0, force);
   layer.solve();
   Field heat(layer.s.grid);
-  const Friction::Power power = layer.friction.power(layer.mass, layer.u, layer.u, heat);
+  const Friction::Power power = layer.power(layer.u, layer.u, heat);
   double work = 0.0;
   for (int j = 0; j < 16; ++j) {
     const double u = layer.u[0][layer.s.grid.cells.index(1, j, 0)];

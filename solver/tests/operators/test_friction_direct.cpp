@@ -32,7 +32,7 @@ struct Raft : Bed {
     }
     fill();
   }
-  linear::Report solve_once() { return friction.solve(mass, rhs, inertia, aperture, rheology, u_strain, u); }
+  linear::Report solve_once() { return friction.solve(balance, inertia, aperture, rheology, now, next); }
 };
 
 TEST(FrictionDirect, ThinRaftTakesTwoIterationsAtMost) {

@@ -47,7 +47,7 @@ TEST_P(FreeFaces, StressIsSymmetricAndDissipates) {
   const FaceField x = bed.s.random_faces(-1.0, 1.0), y = bed.s.random_faces(-1.0, 1.0);
   Field kinetic(bed.s.grid);
   const auto work = [&](const FaceField& of, const FaceField& at) {
-    return bed.friction.power(bed.mass, of, at, kinetic).on_grains;
+    return bed.power(of, at, kinetic).on_grains;
   };
   const double xx = work(x, x), yy = work(y, y), xy = work(x, y), yx = work(y, x);
   EXPECT_LT(xx, 0.0);
@@ -62,7 +62,7 @@ TEST_P(FreeFaces, WhatTheStressTakesIsDissipated) {
   load(bed);
   const FaceField x = bed.s.random_faces(-1.0, 1.0);
   Field kinetic(bed.s.grid);
-  const Friction::Power power = bed.friction.power(bed.mass, x, x, kinetic);
+  const Friction::Power power = bed.power(x, x, kinetic);
   EXPECT_NEAR(-power.on_grains, power.friction + power.kinetic, 1e-10 * std::fabs(power.on_grains));
 }
 
@@ -133,8 +133,7 @@ TEST(FrictionOfPartCells, GrainsThatFallOnAFreeFaceFreeIt) {
     layer.fill();
     layer.s.boundary.exchange(layer.rheology.free_side);
     for (int i = 0; i < 6; ++i)
-      friction.solve(layer.mass, layer.rhs, layer.inertia, layer.aperture, layer.rheology, layer.u_strain,
-                     layer.u);
+      friction.solve(layer.balance, layer.inertia, layer.aperture, layer.rheology, layer.now, layer.next);
     return layer.u[1][layer.s.grid.cells.index(1, surface + 1, 0)] / speed;
   };
   EXPECT_NEAR(fall(0.0), 1.0, 1e-6);
@@ -159,8 +158,7 @@ TEST(FrictionOfPartCells, AFlowingBedIsSolvedAtOnce) {
     });
   bed.fill();
   const auto solve = [&] {
-    return bed.friction.solve(bed.mass, bed.rhs, bed.inertia, bed.aperture, bed.rheology, bed.u_strain,
-                              bed.u);
+    return bed.friction.solve(bed.balance, bed.inertia, bed.aperture, bed.rheology, bed.now, bed.next);
   };
   EXPECT_TRUE(solve().converged);
   const FaceField once = bed.u;

@@ -35,7 +35,7 @@ TEST(Friction, KineticPowerOfEachCell) {
       bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { bed.rhs[d][c] *= 1e9; });
     bed.solve();  // so heavy that nothing moves
     Field kinetic(bed.s.grid);
-    const Friction::Power power = bed.friction.power(bed.mass, bed.u, bed.u, kinetic);
+    const Friction::Power power = bed.power(bed.u, bed.u, kinetic);
     EXPECT_NEAR(power.kinetic, bed.s.total(kinetic) * bed.s.grid.cell_volume, 1e-12 * power.kinetic);
     const auto at = [&](int j) { return kinetic[bed.s.grid.cells.index(1, j, 0)]; };
     EXPECT_NEAR(at(1), mu * rate * rate, 1e-6 * mu * rate * rate);

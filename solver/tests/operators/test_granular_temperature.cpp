@@ -96,7 +96,7 @@ TEST(GranularTemperature, SteadySimpleShear) {
   const double steady = d * d * shear * shear / (15.0 * (1.0 - e));
   for (double f : {0.1, 0.55}) {
     Scene scene = Gas::scene(e);
-    scene.model.granular_temperature = TemperatureModel::algebraic;
+    scene.model.granular_temperature = TemperatureModel::of<closures::TemperatureAlgebraic>();
     Gas algebraic(scene, f, 0.0);
     algebraic.deform(shear, 0.0);
     algebraic.advance(1e-3);
@@ -125,7 +125,7 @@ TEST(GranularTemperature, IsBoundedByAFallThroughTheTank) {
   Gas hot(scene, 0.3, 100.0);
   hot.advance(1e-6);
   EXPECT_NEAR(hot.value(), most, 1e-12 * most);
-  scene.model.granular_temperature = TemperatureModel::algebraic;
+  scene.model.granular_temperature = TemperatureModel::of<closures::TemperatureAlgebraic>();
   Gas sheared(scene, 0.3, 0.0);
   sheared.deform(2e4, 0.0);
   sheared.advance(1e-3);
@@ -134,7 +134,7 @@ TEST(GranularTemperature, IsBoundedByAFallThroughTheTank) {
 
 TEST(GranularTemperature, OffStaysZero) {
   Scene scene = Gas::scene(0.9);
-  scene.model.granular_temperature = TemperatureModel::off;
+  scene.model.granular_temperature = TemperatureModel::of<closures::TemperatureOff>();
   Gas gas(scene, 0.4, 0.0);
   gas.deform(50.0, 0.0);
   gas.advance(0.01);
@@ -215,7 +215,7 @@ TEST(GranularTemperature, IsCarriedAndConductedWithoutNewExtremes) {
 TEST(GranularTemperature, PredictionInSteadyCompression) {
   const double f = 0.3, e = 0.9, rho = 2500.0, d = 1e-3, stretch = -20.0, div = 2.0 * stretch;
   Scene scene = Gas::scene(e);
-  scene.model.granular_temperature = TemperatureModel::algebraic;
+  scene.model.granular_temperature = TemperatureModel::of<closures::TemperatureAlgebraic>();
   scene.model.pressure_work = false;
   Gas gas(scene, f, 0.0);
   gas.rheology.restitution.fill(e);

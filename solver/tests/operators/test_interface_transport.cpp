@@ -144,11 +144,12 @@ TEST(InterfaceTransport, UniformShareStaysUniformWhileGrainsMove) {
   for (InterfaceScheme scheme : {InterfaceScheme::cicsam, InterfaceScheme::plic}) {
     for (double share : {0.0, 0.37, 1.0}) {
       Tank s(interface_scene(16, scheme, false));
-      const Field f_s = s.random_cells(0.1, 0.5), alpha = s.random_cells(share, share);
+      State now(s.grid), next(s.grid);
+      now.f_s = s.random_cells(0.1, 0.5);
+      now.alpha = s.random_cells(share, share);
       const FaceField flux = s.random_faces(-0.5, 0.5);  // with divergence: f_c changes
-      Field next(s.grid);
-      InterfaceTransport(s.grid, s.scene, s.boundary).advance(0.01, alpha, f_s, flux, next);
-      s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(next[c], share, 1e-13); });
+      InterfaceTransport(s.grid, s.scene, s.boundary).advance(0.01, now, flux, next);
+      s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_NEAR(next.alpha[c], share, 1e-13); });
     }
   }
 }
@@ -160,14 +161,16 @@ struct Liquid {
 
 Liquid carried_within_bounds(const Tank& s, double dt, const Field& alpha, const Field& f_s,
                              const FaceField& flux) {
-  Field next(s.grid);
-  InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, alpha, f_s, flux, next);
+  State now(s.grid), next(s.grid);
+  now.alpha = alpha;
+  now.f_s = f_s;
+  InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, now, flux, next);
   Liquid liquid;
   s.each_cell([&](int, int, int, std::ptrdiff_t c) {
-    EXPECT_GE(next[c], 0.0);
-    EXPECT_LE(next[c], 1.0);
+    EXPECT_GE(next.alpha[c], 0.0);
+    EXPECT_LE(next.alpha[c], 1.0);
     liquid.before += alpha[c] * (1.0 - f_s[c]);
-    liquid.after += next[c] * (1.0 - f_s[c] - dt * s.divergence(flux, c));
+    liquid.after += next.alpha[c] * (1.0 - f_s[c] - dt * s.divergence(flux, c));
   });
   return liquid;
 }
@@ -225,8 +228,9 @@ TEST(InterfaceTransport, ReportsWhatLeavesThroughTheOpenTop) {
     scene.sides[top].kind = SideKind::open;
     scene.sides[bottom].kind = SideKind::wall;
     Tank s(scene);
-    Field alpha = s.random_cells(1.0, 1.0);
-    s.boundary.fill_scalar(alpha, 0.0);
+    State now(s.grid), next(s.grid);
+    now.alpha = s.random_cells(1.0, 1.0);
+    s.boundary.fill_scalar(now.alpha, 0.0);
     FaceField flux(s.grid);
     // up in the left half and out, in from the top in the right half, from side to side in the lowest row
     s.each(s.grid.fluid_faces(1),
@@ -234,12 +238,10 @@ TEST(InterfaceTransport, ReportsWhatLeavesThroughTheOpenTop) {
     for (int i = 1; i < 8; ++i) flux[0][s.grid.cells.index(i, 0, 0)] = -0.3 * (i < 4 ? i : 8 - i);
     s.each_cell([&](int, int, int, std::ptrdiff_t c) { ASSERT_NEAR(s.divergence(flux, c), 0.0, 1e-12); });
     const double dt = 0.05;
-    Field next(s.grid);
-    const double left = InterfaceTransport(s.grid, s.scene, s.boundary)
-                            .advance(dt, alpha, Field(s.grid), flux, next)
-                            .total(s.grid);
+    const double left =
+        InterfaceTransport(s.grid, s.scene, s.boundary).advance(dt, now, flux, next).total(s.grid);
     EXPECT_NEAR(left, 0.3 * 0.5 * dt, 1e-14);  // speed times half the tank's top, depth 1 m
-    EXPECT_NEAR((s.total(alpha) - s.total(next)) * s.grid.cell_volume, left, 1e-14);
+    EXPECT_NEAR((s.total(now.alpha) - s.total(next.alpha)) * s.grid.cell_volume, left, 1e-14);
   }
 }
 

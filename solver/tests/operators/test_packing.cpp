@@ -56,12 +56,12 @@ TEST(Packing, RestLeavesItAlone) {
 // Fast shear in a viscous liquid drives a bed to a looser packing, and a load holds it against that.
 TEST(Packing, ByRateFollowsTheLoadAndTheLiquid) {
   Scene scene = unit_scene(2, 6);
-  scene.model.critical_packing = CriticalPacking::by_rate;
+  scene.model.critical_packing = CriticalPacking::of<closures::CriticalPackingByRate>();
   scene.liquid.viscosity = 0.1;
   scene.solid.density = 2500.0;
   scene.solid.diameter = 1e-4;
   for (const double pressure : {1e3, 1e5}) {
-    const double critical = closures::critical_packing(
+    const double critical = closures::CriticalPackingByRate::packing(
         closures::mixed_inertial_number(rate, pressure, 2500.0, 1e-4, 0.1), Contact{});
     EXPECT_LT(critical, Contact{}.critical_solid_fraction);
     EXPECT_NEAR(after(0.6, 0.6, 0.0, rate, 0.0, scene, pressure),

@@ -80,6 +80,16 @@ TEST_F(Program, ChecksACase) {
   EXPECT_NE(outcome.out.find("\nend = 2\n"), std::string::npos);
 }
 
+TEST_F(Program, SaysWhichPartsOfTheModelAct) {
+  const std::string out = granvof("check " + shipped("s1") + " --set model.drag=false").out;
+  const auto model = out.find("\n# model: "), rest = out.find("\n# not in this scene: ");
+  ASSERT_LT(model, rest) << out.substr(0, 600);
+  ASSERT_LT(rest, out.find("\n[scene]\n"));
+  EXPECT_LT(out.find("; friction (17)", model), rest);
+  EXPECT_GT(out.find("drag (8), (9)"), rest);
+  EXPECT_NE(out.find("drag (8), (9)"), std::string::npos);
+}
+
 TEST_F(Program, EstimatesWhatARunTakes) {
   const std::string out = granvof("check " + shipped("s1")).out;
   double steps = 0.0, seconds = 0.0, megabytes = 0.0;

@@ -16,9 +16,17 @@ namespace granvof {
 namespace {
 
 TEST(Stages, ArePrintedInTheTheory) {
-  std::string table = "| stage | equations | what it does |\n|---|---|---|\n";
-  for (const TimeStep::Stage& stage : TimeStep::stages())
-    table += fmt::format("| {} | {} | {} |\n", stage.part, stage.equations, stage.does);
+  std::string table = "| stage | parts of the model | what it does |\n|---|---|---|\n";
+  for (const TimeStep::Stage& stage : TimeStep::stages()) {
+    std::string served;
+    for (const Part* part : stage.parts) {
+      if (part == nullptr) continue;
+      const std::string equations = text_of_equations(part->equations);
+      served +=
+          (served.empty() ? "" : "; ") + std::string(part->name) + (equations.empty() ? "" : ' ' + equations);
+    }
+    table += fmt::format("| {} | {} | {} |\n", stage.cost, served, stage.does);
+  }
   std::ifstream file(cases_directory().parent_path() / "docs/theory/numerics.md");
   std::stringstream page;
   page << file.rdbuf();
@@ -38,7 +46,7 @@ TEST(Stages, CostIsThatOfThoseThatAreDue) {
     return named;
   };
   std::set<std::string> all;
-  for (const TimeStep::Stage& stage : TimeStep::stages()) all.insert(stage.part);
+  for (const TimeStep::Stage& stage : TimeStep::stages()) all.insert(stage.cost);
   const std::set<std::string> with = parts("model.shear_dilatancy=true");
   std::set<std::string> without = parts("model.shear_dilatancy=false");
   EXPECT_EQ(with.count("packing"), 1U);

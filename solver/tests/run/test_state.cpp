@@ -21,7 +21,7 @@ constexpr double h = 0.01, f_s = 0.6;
 Scene bed(int first, int count, double density) {
   Scene scene = box_scene(2, {4, rows, 1}, {4 * h, rows * h, 1.0});
   scene.solid.density = density;
-  scene.model.packing = Packing::carried;
+  scene.model.packing = Packing::of<closures::PackingCarried>();
   scene.liquid_boxes = {Box{{0.0, 0.0, 0.0}, {4 * h, rows * h, 1.0}}};
   scene.bed = Bed{.box = {{0.0, first * h, 0.0}, {4 * h, (first + count) * h, 1.0}}, .solid_fraction = f_s};
   return scene;
@@ -84,7 +84,7 @@ TEST(InitialState, ARaftBearsItsDryPart) {
 
 TEST(InitialState, WithOnePackingForAllNothingIsBorneYet) {
   Scene scene = bed(0, 4, 2500.0);
-  scene.model.packing = Packing::uniform;
+  scene.model.packing = Packing::of<closures::PackingUniform>();
   const Column c(scene);
   for (int j = 0; j < 4; ++j) {
     EXPECT_EQ(c.p_s(j), 0.0);

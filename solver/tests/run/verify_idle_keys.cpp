@@ -16,6 +16,7 @@
 #include "solver/scene/keys.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/simulation.hpp"
+#include "solver/tests/small_tank.hpp"
 
 namespace granvof::test {
 namespace {
@@ -23,25 +24,8 @@ namespace {
 using case_file::Key;
 
 // A heap with its foot in water that runs down and out over a rough floor, with all that there is at work.
-constexpr std::string_view all_at_work = R"([scene]
-name = "work"
-[tank]
-size = [0.12, 0.05]
-[grid]
-dx = 0.005
-[walls]
+constexpr std::string_view all_at_work = R"([walls]
 top = "open"
-[gas]
-density = 1
-viscosity = 1e-5
-[liquid]
-density = 1000
-viscosity = 1e-3
-level = 0.01
-[solid]
-density = 2500
-diameter = 1.6e-3
-friction = 0.4
 [bed]
 length = 0.05
 height = 0.035
@@ -64,8 +48,6 @@ suspension_viscosity = true
 [numerics]
 bed_surface = "part-cells"
 dt_max = 2e-3
-[time]
-end = 1
 )";
 constexpr double until = 0.024;  // [s]: grains are agitated, and friction has felt it
 
@@ -73,8 +55,9 @@ struct Change {
   std::string key, set;
 };
 
-Scene scene_of(const std::vector<std::string>& sets) {
-  return parse_scene(all_at_work, "work", sets);
+Scene scene_of(std::vector<std::string> sets) {
+  sets.insert(sets.begin(), "solid.diameter=1.6e-3");
+  return small_tank("work", "size = [0.12, 0.05]", 0.01, all_at_work, sets);
 }
 
 std::string text_of_key(const Scene& scene, const std::string& key) {

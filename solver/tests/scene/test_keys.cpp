@@ -1,6 +1,7 @@
 // The table of keys itself.
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,25 @@ TEST(Keys, ADefaultIsAllowed) {
   Draft draft;
   EXPECT_TRUE(find_key("numerics.cfl")->set(draft, draft.scene.numerics.cfl));
   EXPECT_FALSE(find_key("numerics.cfl")->set(draft, -draft.scene.numerics.cfl));
+}
+
+// A choice of the model takes the words of its list of closures, in their order.
+template <typename List>
+std::vector<std::string> words_of() {
+  std::vector<std::string> words;
+  for (const closures::ClosureFacts& facts : List::facts)
+    words.push_back('"' + std::string(facts.word) + '"');
+  return words;
+}
+
+TEST(Keys, AChoiceTakesTheWordsOfItsList) {
+  EXPECT_EQ(find_key("model.drag_law")->words, words_of<closures::DragLaws>());
+  EXPECT_EQ(find_key("model.friction_law")->words, words_of<closures::FrictionLaws>());
+  EXPECT_EQ(find_key("model.radial_distribution")->words, words_of<closures::RadialDistributions>());
+  EXPECT_EQ(find_key("model.kinetic_transport")->words, words_of<closures::KineticTransports>());
+  EXPECT_EQ(find_key("model.packing")->words, words_of<closures::Packings>());
+  EXPECT_EQ(find_key("model.critical_packing")->words, words_of<closures::CriticalPackings>());
+  EXPECT_EQ(find_key("model.granular_temperature")->words, words_of<closures::TemperatureModels>());
 }
 
 TEST(Keys, NearestIsFoundByEditDistance) {

@@ -1,0 +1,23 @@
+// What of (7) is solved, that model.granular_temperature chooses from. The first is the paper's. Each says
+//   agitates: grains have a Theta at all,
+//   is_transported: it is carried and conducted, and changes in time; else in steady balance.
+#pragma once
+
+#include "solver/closures/granular_temperature/algebraic.hpp"
+#include "solver/closures/granular_temperature/off.hpp"
+#include "solver/closures/granular_temperature/transported.hpp"
+#include "solver/model/choices.hpp"
+
+namespace granvof::closures {
+
+using TemperatureModels = Choices<TemperatureTransported, TemperatureAlgebraic, TemperatureOff>;
+using TemperatureModel = Chosen<TemperatureModels>;
+
+inline bool agitates(TemperatureModel chosen) {
+  return chosen.with([](auto model) { return model.agitates; });
+}
+inline bool is_transported(TemperatureModel chosen) {
+  return chosen.with([](auto model) { return model.is_transported; });
+}
+
+}  // namespace granvof::closures

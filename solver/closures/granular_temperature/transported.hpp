@@ -1,0 +1,13 @@
+// Theta by all of (7): carried with the grains, conducted, made and lost.
+#pragma once
+
+#include "solver/model/choices.hpp"
+
+namespace granvof::closures {
+
+struct TemperatureTransported {
+  static constexpr ClosureFacts facts{"transported", "(7)"};
+  static constexpr bool agitates = true, is_transported = true;
+};
+
+}  // namespace granvof::closures
