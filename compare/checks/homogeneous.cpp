@@ -152,7 +152,8 @@ std::optional<EvenShear> printed_even_shear(const Scene& scene) {
       model.correlated_collisions || model.critical_packing != CriticalPacking::constant)
     return std::nullopt;
   const Solid& solid = scene.solid;
-  const double f = scene.bed->solid_fraction, shear = speed / scene.tank[1], g0 = contacts_to_be(scene, f);
+  const double high = scene.bed->box.upper[1] - scene.bed->box.lower[1];
+  const double f = scene.bed->solid_fraction, shear = speed / high, g0 = contacts_to_be(scene, f);
   const double beta = model.drag ? printed_drag(scene, f, 0.0) : 0.0;
   const auto collisions = [&](double theta, double e) {  // (23)
     return 12.0 * (1.0 - e * e) * f * f * solid.density * g0 / (solid.diameter * std::sqrt(pi)) *

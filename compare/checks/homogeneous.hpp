@@ -18,7 +18,8 @@ double printed_drag(const Scene& scene, double f_s, double slip);
 // (5) and (6) without acceleration and net flow, at the bed's solid fraction. Nothing without a bed or drag.
 std::optional<double> printed_settling_slip(const Scene& scene);
 
-// What grains at the bed's solid fraction do in steady shear between a floor and a lid that move in x.
+// What grains at the bed's solid fraction do in steady shear between a floor and a lid that move in x, as far
+// apart as the bed is high: a bed that fills the tank, or all that obstacles on the floor leave of it.
 struct EvenShear {
   double theta = 0.0;     // granular temperature [m2/s2], from production = collisions + drag, (7)
   double energy = 0.0;    // 3/2 f_s rho_s Theta [J/m3]

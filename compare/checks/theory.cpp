@@ -57,6 +57,15 @@ std::optional<double> triangle_flat_top(const Run&, const Parameters&) {
   return 0.05 / 0.95;
 }
 
+// Of a heap whose face leans back from its foot: a length l less its part of h / tan(slope).
+std::optional<double> heap_flat_top(const Run& run, const Parameters&) {
+  const auto& bed = run.scene.bed;
+  if (!bed || bed->slope >= 90.0) return std::nullopt;
+  const double length = bed->box.upper[0] - bed->box.lower[0], high = bed->box.upper[1] - bed->box.lower[1];
+  const double face = high / std::tan(bed->slope * std::numbers::pi / 180.0);
+  return (length - 0.95 * face) / (length - 0.05 * face);
+}
+
 std::optional<double> film_speed(const Run& run, const Parameters&) {
   const Scene& scene = run.scene;
   const double depth = scene.tank[1], y = depth - 0.5 * scene.grid.spacing[1];
@@ -97,11 +106,14 @@ std::optional<double> even_shear_pressure(const Run& run, const Parameters&) {
 std::optional<double> even_shear_power(const Run& run, const Parameters& p) {
   const auto even = printed_even_shear(run.scene);
   if (!even || !p.term) return std::nullopt;
-  if (*p.term == "contacts") return even->contacts;
-  if (*p.term == "drag") return even->drag;
-  if (*p.term == "agitation" && p.window) return even->energy / (p.window->end - p.window->begin);
-  if (*p.term == "viscosity") return even->fluid;
-  if (*p.term == "walls") return -(even->contacts + even->drag + even->fluid);
+  const Box& bed = run.scene.bed->box;
+  const double share =
+      (bed.upper[1] - bed.lower[1]) / run.scene.tank[1];  // of the tank, the rest is obstacle
+  if (*p.term == "contacts") return share * even->contacts;
+  if (*p.term == "drag") return share * even->drag;
+  if (*p.term == "agitation" && p.window) return share * even->energy / (p.window->end - p.window->begin);
+  if (*p.term == "viscosity") return share * even->fluid;
+  if (*p.term == "walls") return -share * (even->contacts + even->drag + even->fluid);
   return std::nullopt;
 }
 
@@ -128,7 +140,7 @@ std::optional<double> sliding_energy(const Run& run, const Parameters& p) {
   return 0.5 * run.scene.solid.density * grains * *speed * *speed;
 }
 
-constexpr std::array<FormulaEntry, 14> table{{
+constexpr std::array<FormulaEntry, 15> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
@@ -145,6 +157,10 @@ constexpr std::array<FormulaEntry, 14> table{{
      floating_decay_rate},
     {"triangle_flat_top", "-", "a triangle's share within 5 % of its tip of the length above 5 % of it",
      triangle_flat_top},
+    {"heap_flat_top", "-",
+     "the same of a heap as it is set up: (l - 0.95 b) / (l - 0.05 b), b = h / tan(slope) the length of its "
+     "face",
+     heap_flat_top},
     {"solid_fraction_max", "-", "f_s,max of (13)", solid_fraction_max},
     {"film_speed", "m/s",
      "u = rho g sin(theta) / mu (h y - y^2 / 2) at the uppermost cells' centres (Nusselt 1916)", film_speed},

@@ -28,6 +28,12 @@ TEST(Theory, SpeedOfAFilm) {
   EXPECT_NEAR(value_of("film_speed", "inclined-film"), 0.0766087, 1e-6);
 }
 
+// 0.04 m high, 0.27 m long, 12 degrees: the face is 0.188185 m; (0.27 - 0.178776) / (0.27 - 0.009409).
+TEST(Theory, TopOfAHeap) {
+  EXPECT_NEAR(value_of("heap_flat_top", "heap"), 0.350065, 1e-5);
+  EXPECT_EQ(value_of("heap_flat_top", "s1"), -1.0);
+}
+
 // H = 0.1 m * 0.5 / 0.57; density ratio 0.2.
 TEST(Theory, PeriodOfAFloatingBed) {
   EXPECT_NEAR(value_of("floating_period", "float-full-r02"), 0.265710, 1e-6);

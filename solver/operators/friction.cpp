@@ -64,7 +64,6 @@ void Friction::fit_box(const FaceInertia& inertia) {
     faces_[d] = faces_of(grid_, box_, d);
     if (is_empty(box_)) continue;
     layouts.push_back(faces_[d]);
-    multigrid_.emplace_back(faces_[d], grid_.h);
   }
   if (!layouts.empty()) solver_.emplace(layouts);
 }

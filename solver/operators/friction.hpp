@@ -58,6 +58,7 @@ class Friction {
     double friction = 0.0;    // dissipated by enduring contacts, >= 0
     double kinetic = 0.0;     // dissipated by the kinetic viscosity, >= 0: the production of Theta
     double walls = 0.0;       // given by moving walls
+    double sides = 0.0;       // given by what is beyond sides that grains pass, along their normals
   };
   Power power(const FaceField& mass, const FaceField& u, const FaceField& u_end, Field& kinetic);
 
@@ -77,7 +78,7 @@ class Friction {
   void slip_on_bumps(const Rheology& rheology);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology);
-  void hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane);
+  void hold_to_walls(const FaceInertia& inertia, const Rheology& rheology, int d, int e);
   void set_own_diffusion(const FaceField& mass);
   void set_multigrids();
   FrictionForm form(const FaceField& mass) const;
@@ -109,7 +110,7 @@ class Friction {
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
   std::optional<linear::ConjugateGradient> solver_;
-  std::vector<linear::Multigrid> multigrid_;  // one a component
+  std::vector<linear::Multigrid> multigrid_;  // one a component; none until a bed is not thin
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
   FrictionDirect direct_;
   FaceField component_mass_, weight_, residual_, correction_;

@@ -22,11 +22,12 @@ void FrictionDirect::for_each_face(const Range& box, Visit&& visit) const {
 }
 
 void FrictionDirect::number(const Range& box, const FrictionForm& form) {
+  if (box != box_ || number_[0].empty())  // faces outside the box stay without a number
+    for (auto& numbers : number_) numbers.assign(grid_.cells.size, -1);
   box_ = box;
-  for (auto& numbers : number_) numbers.assign(grid_.cells.size, -1);
   int count = 0;
   for_each_face(box, [&](int d, std::ptrdiff_t c) {
-    if (form.marked[d][c] != 0.0) number_[d][static_cast<std::size_t>(c)] = count++;
+    number_[d][static_cast<std::size_t>(c)] = form.marked[d][c] != 0.0 ? count++ : -1;
   });
   first_.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) first_[static_cast<std::size_t>(i)] = i;

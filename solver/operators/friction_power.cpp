@@ -62,7 +62,7 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
           spent[c] += 0.25 * kinetic[c] * (squared(c) + squared(c + s) + squared(c + t) + squared(c + s + t));
       });
       for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(d, e)))
-        if (o.flat)  // its strain is over half a cell: four times the square
+        if (o.flat && !o.on_side)  // its strain is over half a cell: four times the square
           for (const std::ptrdiff_t c : {o.open[0], o.open[1]}) spent[c] += 0.75 * kinetic[c] * squared(o.at);
     }
   }
@@ -71,6 +71,16 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
   power.kinetic = grid_.cell_volume *
                   sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return spent[c]; });
   power.friction = std::max(total * grid_.cell_volume - power.kinetic, 0.0);
+  grid_.for_each_open_side([&](int d, bool upper) {
+    const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0;
+    const double inv_h = 1.0 / grid_.h[d], area = grid_.cell_volume * inv_h, sign = upper ? 1.0 : -1.0;
+    const double *x = v[d], *mu = normal_viscosity(d);
+    power.sides += sign * area * sum_over(grid_.cells, grid_.side_faces(d, upper), [=](std::ptrdiff_t c) {
+                     const std::ptrdiff_t cell = c + inside;
+                     const double stretch = (x[cell + s] - x[cell]) * inv_h;
+                     return x[c] * (2.0 * mu[cell] * stretch + kinetic[cell] * div[cell]);
+                   });
+  });
   power.walls = wall_power(grid_, boundary_, [&](int d, int e) {
     const double* tau = shear_[plane_index(d, e)].data();
     return [=](std::ptrdiff_t c) { return tau[c]; };

@@ -69,6 +69,8 @@ void Friction::set_own_diffusion(const FaceField& mass) {
 }
 
 void Friction::set_multigrids() {
+  if (multigrid_.empty())
+    for (int d = 0; d < grid_.dim; ++d) multigrid_.emplace_back(faces_[d], grid_.h);
   for (int d = 0; d < grid_.dim; ++d) {
     linear::Faces faces{};
     for (int e = 0; e < grid_.dim; ++e) faces.lower[e] = coefficient_[d][e].data();

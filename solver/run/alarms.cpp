@@ -21,7 +21,10 @@ constexpr double largest_share_of_bounds = 0.01;  // the same, taken by the boun
 // Contacts that store more than the bed's own height does: such a bed is not at rest but springs apart, by an
 // amount that the stiffness and the first few steps decide.
 constexpr double largest_elastic_start = 1.0;  // of the bed's potential energy above its base
-constexpr double unconverged_share = 0.01;     // of the friction solves
+// P_s beside an outlet, of the scene's own: grains of a flow bring next to none, a bed that leans on it a
+// third.
+constexpr double largest_outlet_load = 0.1;
+constexpr double unconverged_share = 0.01;  // of the friction solves
 // Of all steps that were tried; runs of the shipped cases have at most 0.01. A few in a short run are none.
 constexpr double refused_share = 0.05;
 constexpr double few_refused = 20.0;
@@ -55,11 +58,13 @@ double least_energy(const Scene& scene, const EnergyTerms& start) {
 Alarms::Alarms(const Scene& scene, const EnergyTerms& start) : scene_(scene), start_(start) {}
 
 double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now) {
-  return now.physical() + now.numerical_magnitude() + now.in_motion() + least_energy(scene, start);
+  return now.physical() + now.numerical_magnitude() + now.in_motion() + now.carried_out() +
+         least_energy(scene, start);
 }
 
 double energy_created(const Scene& scene, const EnergyTerms& now) {
-  return created_beside_misplaced(now) / (now.physical() + now.in_motion() + least_own_energy(scene));
+  return created_beside_misplaced(now) /
+         (now.physical() + now.in_motion() + now.carried_out() + least_own_energy(scene));
 }
 
 void Alarms::watch(const char* monitor, double value, double limit, double time, const char* meaning) {
@@ -96,6 +101,10 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
        largest_elastic_start,
        "the bed starts so dense that its contacts hold more energy than its height: it springs apart, and "
        "how far depends on contact.stiffness and on the first steps");
+  look("outlet load", monitors.outlet_load(s) / scales_of(scene_).pressure, largest_outlet_load,
+       "grains lean on an outlet, which holds them: they leave at the speed at which they arrive, not by "
+       "their "
+       "own weight");
   look("granular bounds", e.theta_bounds / turnover, largest_share_of_bounds,
        "Theta runs into its stated bounds");
   look("friction solves", static_cast<double>(counts.unconverged_friction),

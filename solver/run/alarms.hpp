@@ -14,14 +14,14 @@
 namespace granvof {
 
 // Energy that a run turned over [J], which its errors are shares of: all dissipation, numerical included by
-// magnitude, and what is in motion. A scene at rest turns nothing over, hence at least a share of what it
-// stores (a pool whose level trembles by 0.04 mm/s, as the sharpened interface does after ten seconds, moves
-// 1e-9 of it) and of the bed's own energy.
+// magnitude, what is in motion and what was carried out in all. A scene at rest turns nothing over, hence at
+// least a share of what it stores (a pool whose level trembles by 0.04 mm/s, as the sharpened interface does
+// after ten seconds, moves 1e-9 of it) and of the bed's own energy.
 double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now);
 
 // What numerics, and the work of solid pressure that nothing pays for, gave the flow so far, as a share of
-// what physics dissipated and is in motion [-]. A flow that does next to nothing counts by a hundredth of the
-// bed's own energy.
+// what physics dissipated, is in motion or was carried out [-]. A flow that does next to nothing counts by a
+// hundredth of the bed's own energy.
 double energy_created(const Scene& scene, const EnergyTerms& now);
 
 struct StepCounts {

@@ -72,7 +72,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.viscosity = dt * trace.viscous.dissipation;
   t.collisions = granular.collisions;
   t.outflow = w.potential_out + w.kinetic_out + w.granular_out - w.side_pressure - w.driving -
-              dt * trace.viscous.sides;
+              dt * (trace.viscous.sides + stress.sides);
   t.walls = dt * (trace.viscous.walls + stress.walls);
   t.dilatancy = work_of_flow_pressure(dt, now, next, trace) - granular.pressure;
   t.shear_dilatancy = t.elastic - trace.carried;

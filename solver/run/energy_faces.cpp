@@ -198,6 +198,11 @@ void Faces::add_side(int d, bool upper) {
     work_.side_pressure -=
         sign * dt * area * total([=](std::ptrdiff_t c) { return p[c + inside] * (qs[c] + q[c]); });
   }
+  if (side.passes_grains) {  // the velocity there is given: what the grains inside press on it with
+    const double *ps = next_.p_s.data(), *leaving = next_.u_s[d].data();
+    work_.side_pressure -=
+        sign * dt * area * total([=](std::ptrdiff_t c) { return ps[c + inside] * leaving[c]; });
+  }
   work_.kinetic_out +=
       sign * dt * area * total([=](std::ptrdiff_t c) { return 0.5 * rho_s * qs[c] * us[c] * us[c]; });
   work_.granular_out +=

@@ -4,9 +4,23 @@
 #include <cmath>
 
 namespace granvof {
+namespace {
 
-Monitors::Monitors(const Grid& grid, const Scene&, const State& start)
-    : grid_(grid), solid_volume_(solid_volume(start)), liquid_volume_(liquid_volume(start)) {
+constexpr double next_to_nothing = 1e-9;  // of the tank: a share of less is rounding
+
+// Of what there was, or of what has come in or left where that is more: a tank may start empty.
+double unaccounted(double now, double at_start, double left, double tank) {
+  const double whole = std::max(at_start, std::fabs(left));
+  return whole > next_to_nothing * tank ? std::fabs(now - at_start + left) / whole : 0.0;
+}
+
+}  // namespace
+
+Monitors::Monitors(const Grid& grid, const Scene& scene, const State& start)
+    : grid_(grid),
+      tank_(scene.tank[0] * scene.tank[1] * scene.tank[2]),
+      solid_volume_(solid_volume(start)),
+      liquid_volume_(liquid_volume(start)) {
   update(start, 0.0, 0.0);
 }
 
@@ -24,16 +38,22 @@ double Monitors::liquid_volume(const State& s) const {
 void Monitors::update(const State& s, double liquid_left, double solid_left) {
   liquid_left_ += liquid_left;
   solid_left_ += solid_left;
-  if (solid_volume_ > 0.0)
-    solid_error_ =
-        std::max(solid_error_, std::fabs(solid_volume(s) - solid_volume_ + solid_left_) / solid_volume_);
-  if (liquid_volume_ > 0.0)
-    liquid_error_ =
-        std::max(liquid_error_, std::fabs(liquid_volume(s) + liquid_left_ - liquid_volume_) / liquid_volume_);
+  solid_error_ = std::max(solid_error_, unaccounted(solid_volume(s), solid_volume_, solid_left_, tank_));
+  liquid_error_ = std::max(liquid_error_, unaccounted(liquid_volume(s), liquid_volume_, liquid_left_, tank_));
   const double* f = s.f_s.data();
   solid_max_ = max_over(grid_.cells, grid_.all_cells(), solid_max_, [=](std::ptrdiff_t c) { return f[c]; });
   solid_min_ =
       -max_over(grid_.cells, grid_.all_cells(), -solid_min_, [=](std::ptrdiff_t c) { return -f[c]; });
+}
+
+double Monitors::outlet_load(const State& s) const {
+  const double* p = s.p_s.data();
+  double load = 0.0;
+  grid_.for_each_passing_side([&](int d, bool upper) {
+    if (grid_.side(d, upper).passes_grains)
+      load = max_over(grid_.cells, grid_.side_cells(d, upper), load, [=](std::ptrdiff_t c) { return p[c]; });
+  });
+  return load;
 }
 
 std::string Monitors::not_finite(const State& s) const {

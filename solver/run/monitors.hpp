@@ -15,12 +15,15 @@ class Monitors {
   // After an accepted step; what left through the sides, net [m3].
   void update(const State& s, double liquid_left, double solid_left);
 
-  double solid_volume(const State& s) const;                    // [m3]
-  double liquid_volume(const State& s) const;                   // [m3]
-  double solid_volume_error() const { return solid_error_; }    // largest relative change so far [-]
-  double liquid_volume_error() const { return liquid_error_; }  // the same, outflow accounted for [-]
-  double solid_fraction_max() const { return solid_max_; }      // largest ever [-]
-  double solid_fraction_min() const { return solid_min_; }      // smallest ever [-]
+  double solid_volume(const State& s) const;   // [m3]
+  double liquid_volume(const State& s) const;  // [m3]
+  // Largest change that the sides do not account for, of what was there or, where that is more, has passed
+  // them [-].
+  double solid_volume_error() const { return solid_error_; }
+  double liquid_volume_error() const { return liquid_error_; }
+  double solid_fraction_max() const { return solid_max_; }  // largest ever [-]
+  double solid_fraction_min() const { return solid_min_; }  // smallest ever [-]
+  double outlet_load(const State& s) const;  // largest P_s of cells beside sides that grains pass [Pa]
   // Empty, or which field is not finite.
   std::string not_finite(const State& s) const;
 
@@ -36,6 +39,7 @@ class Monitors {
 
  private:
   const Grid& grid_;
+  double tank_;  // [m3]
   double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0, solid_left_ = 0.0;
   double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0, solid_min_ = 1.0;
 };

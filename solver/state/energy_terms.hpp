@@ -28,6 +28,8 @@ struct EnergyTerms {
   double stored() const { return kinetic + potential + granular + elastic; }
   double physical() const { return drag + friction + viscosity + collisions; }
   double in_motion() const { return kinetic + granular; }
+  // Through the sides; nothing where more was put in than left.
+  double carried_out() const { return outflow > 0.0 ? outflow : 0.0; }
   double numerical() const;            // the sum of the numerical terms
   double numerical_magnitude() const;  // of their magnitudes
   // What came from nowhere: every numerical term that is a gain, and the work of solid pressure that nothing

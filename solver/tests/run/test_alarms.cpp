@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "solver/output/checkpoint.hpp"
@@ -55,6 +56,29 @@ class RunAlarms : public ::testing::Test {
 
 TEST_F(RunAlarms, ASoundRunRaisesNone) {
   EXPECT_EQ(record_of({"numerics.solid_flux=limited"})["warnings"], json::array());
+}
+
+// A dry column beside an outlet: it holds the grains, and the run says so; what falls through one does not.
+TEST_F(RunAlarms, ABedThatLeansOnAnOutletIsNamed) {
+  const auto record = [&](const char* outlet, const std::vector<std::string>& overrides) {
+    const auto run = path(outlet);
+    const Scene scene = test::small_tank(
+        outlet, "size = [0.1, 0.1]", 0.1,
+        fmt::format(
+            "[walls]\nall = \"no-slip\"\ntop = \"open\"\n{} = {{ outflow_pressure = 0 }}\n[bed]\nlength = "
+            "0.09\nheight = 0.05\nsolid_fraction = 0.575\n",
+            outlet),
+        overrides);
+    EXPECT_EQ(run_into(run, scene), 0);
+    return json::parse(test::text_of(run / "run.json"));
+  };
+  const std::vector<std::string> dry{"liquid=false", "solid.diameter=1e-3", "time.end=0.3"};
+  const json leans = record("right", dry);
+  EXPECT_TRUE(warned(leans, "outlet load"));
+  EXPECT_FALSE(warned(leans, "energy residual"));
+  std::vector<std::string> loose = dry;
+  loose.insert(loose.end(), {"bed.length=0.1", "bed.y=0.02", "bed.solid_fraction=0.3"});
+  EXPECT_EQ(record("bottom", loose)["warnings"], json::array());
 }
 
 // A dry bed on a slope it rests on, whose potential energy counts from above it.

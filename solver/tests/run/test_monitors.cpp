@@ -44,5 +44,21 @@ TEST_F(TenthLeft, UnseenIsAnError) {
   EXPECT_NEAR(monitors_.liquid_volume_error(), 0.1 * 0.6 * 0.5 / 0.7, 1e-12);
 }
 
+// Of a tank that was empty the shares are of what has come in.
+TEST(EmptyAtFirst, WhatComesInIsHeldAgainstWhatIsThere) {
+  const test::Tank tank{test::box_scene(2, {4, 8, 1}, {0.04, 0.08, 1.0})};
+  State state = initial_state(tank.grid, tank.scene, tank.boundary);
+  state.alpha.fill(0.0);
+  Monitors monitors(tank.grid, tank.scene, state);
+  EXPECT_EQ(monitors.solid_volume_error(), 0.0);
+  for (int i = 0; i < 4; ++i) state.f_s[tank.grid.cells.index(i, 0, 0)] = 0.1;
+  const double came = monitors.solid_volume(state);
+  Monitors told = monitors;
+  told.update(state, 0.0, -came);
+  EXPECT_LT(told.solid_volume_error(), 1e-12);
+  monitors.update(state, 0.0, -1.25 * came);
+  EXPECT_NEAR(monitors.solid_volume_error(), 0.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace granvof
