@@ -4,9 +4,10 @@ import json
 import os
 import shutil
 import signal
+import subprocess
 import time
 
-from faults_tried.bench import TableError, listed, refused
+from faults_tried.bench import PATIENCE, TableError, listed, refused
 from faults_tried.runs import SmallRun, crashed, not_refused, stopped_once, tree_of
 
 LONG_NAME = 3000  # letters
@@ -118,6 +119,36 @@ def moved_while_it_runs(bench, run, place):
     return run.why_not_whole(place / "elsewhere") or ("it made another" if (place / "run").exists() else "")
 
 
+def another_put_in_its_place_while_it_runs(bench, run, place):
+    """An error that is said; the other stays as it is, and what was moved goes on from where it was."""
+    with open(place / "said", "wb") as said:
+        running = begun(SaidOf(run, said), place / "run")
+        (place / "run").rename(place / "elsewhere")
+        shutil.copytree(run.whole, place / "run")
+        before = tree_of(place / "run")
+        running.send_signal(signal.SIGCONT)
+        code = running.wait()
+    if code != 1 or b"replaced while the run went on" not in (place / "said").read_bytes():
+        return f"exit code {code}, said {(place / 'said').read_bytes()[-100:]!r}"
+    return run.why_not_whole(place / "elsewhere") or ("" if tree_of(place / "run") == before else "it wrote into the other")
+
+
+def a_pipe_for_its_record(bench, run, place):
+    """While it runs: an end that is said, and nobody is waited for."""
+    with open(place / "said", "wb") as said:
+        running = begun(SaidOf(run, said), place / "run")
+        (place / "run/run.json").unlink()
+        os.mkfifo(place / "run/run.json")
+        running.send_signal(signal.SIGCONT)
+        try:
+            code = running.wait(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            running.kill()
+            running.wait()
+            return "it waits for the pipe"
+    return "" if code == 1 and b"a pipe" in (place / "said").read_bytes() else f"exit code {code}, said {(place / 'said').read_bytes()[-100:]!r}"
+
+
 def its_checkpoint_and_record_removed_while_it_runs(bench, run, place):
     """They are written anew, from what it knows."""
     running = begun(run, place / "run")
@@ -197,6 +228,7 @@ def no_standard_output_and_a_full_error_stream(bench, run, place):
 TRIES = {way.__name__: way for way in (
     a_link_to_a_directory, a_link_to_nothing, a_long_name, a_long_path, a_name_with_a_line_break, a_name_that_is_not_utf_8,
     links_for_drafts, a_link_for_the_series, stopped_and_continued, removed_while_it_runs, moved_while_it_runs,
+    another_put_in_its_place_while_it_runs, a_pipe_for_its_record,
     its_checkpoint_and_record_removed_while_it_runs, signals_in_quick_succession, its_case_replaced_while_it_runs,
     the_checkpoint_of_another_case, two_that_resume, no_standard_output_and_a_full_error_stream)}
 

@@ -102,7 +102,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 }
 
 void overwrite_file(const std::filesystem::path& path, std::string_view content) {
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  require_file(path, "write");  // opening a pipe waits for its other end
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
   if (!file.valid()) throw OutputError("write", path, reason(errno));
   // Half of the new content would be worse than the old one: room for all of it comes first.
   if (const int error = ::posix_fallocate(file.get(), 0, static_cast<off_t>(content.size())); error != 0)

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "solver/output/build_info.hpp"
@@ -173,7 +174,22 @@ ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, cons
   return {std::move(writer), std::move(checkpoint), existing->warnings};
 }
 
+// Whether the directory is still the one that this run has locked.
+bool RunWriter::is_in_place() const {
+  struct stat ours {
+  }, there{};
+  return ::fstat(lock_.get(), &ours) == 0 && ::stat(directory_.c_str(), &there) == 0 &&
+         ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
+}
+
+std::optional<double> RunWriter::checkpoint_time() const {
+  std::error_code none;
+  return is_in_place() && fs::is_regular_file(checkpoint_path(), none) ? checkpoint_time_ : std::nullopt;
+}
+
 void RunWriter::start_writing() {
+  if (!is_in_place())
+    throw OutputError("write to", directory_, "it was removed or replaced while the run went on");
   if (series_) return;
   if (resume_time_) {
     start_resumed(*resume_time_);
@@ -246,7 +262,7 @@ void RunWriter::finish(const RunProgress& progress, const RunExit& exit) {
 }
 
 void RunWriter::give_up(const RunProgress& progress, const std::string& reason, ExitKind kind) noexcept {
-  if (!begun_) return;  // nothing of this run is on the disk, and what is there is another's
+  if (!begun_ || !is_in_place()) return;  // nothing of this run is there, and what is there is another's
   const RunExit exit{ExitState::failed, reason, kind};
   try {
     replace_record(run_record_text(scene_, record_, progress, files(), exit));
@@ -257,6 +273,7 @@ void RunWriter::give_up(const RunProgress& progress, const std::string& reason, 
 }
 
 void RunWriter::note_end_of_copy(const std::string& reason) noexcept {
+  if (!is_in_place()) return;
   try {
     const auto text = ended_record_text(read_file(directory_ / record_name), {ExitState::failed, reason});
     if (text) replace_record(*text);

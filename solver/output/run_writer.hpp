@@ -64,12 +64,13 @@ class RunWriter {
   void note_end_of_copy(const std::string& reason) noexcept;
 
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
-  // Time of the checkpoint on the disk [s]; none yet, none.
-  std::optional<double> checkpoint_time() const { return checkpoint_time_; }
+  // Time of the checkpoint on the disk [s]; none yet, or none any more, none.
+  std::optional<double> checkpoint_time() const;
 
  private:
   RunWriter(std::filesystem::path directory, Scene scene, RunStart start, std::span<const Column> monitors);
   void start_writing();
+  bool is_in_place() const;
   void start_fresh();
   void start_resumed(double time);
   void write_record(const RunProgress& progress, const RunExit& exit);

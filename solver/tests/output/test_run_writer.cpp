@@ -1,8 +1,11 @@
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -275,6 +278,56 @@ TEST_F(RunDirectory, NoRoomForTheRecordLeavesTheOldOne) {
   const FullDisk full(before.size() + 100);
   writer.give_up(progress(0.1), std::string(1000, 'x'));
   EXPECT_EQ(read_file(run / "run.json"), before);
+}
+
+// Who moves a run while it goes on may put another in its place: nothing of that is written over.
+TEST_F(RunDirectory, LeavesWhatHasTakenItsPlace) {
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  writer.write_checkpoint(state(0.0), progress(0.0));
+  std::filesystem::rename(run, run.string() + ".moved");
+  std::filesystem::create_directories(run / "fields");
+  std::ofstream(run / "run.json") << "theirs";
+  const auto refused = [&](const std::function<void()>& write) {
+    const auto text = message_of<OutputError>(write);
+    EXPECT_NE(text.find("replaced while the run went on"), std::string::npos) << text;
+  };
+  refused([&] { write_row(writer, 0.1); });
+  refused([&] { writer.write_fields(numbered_fields(scene, 0.1)); });
+  refused([&] { writer.write_checkpoint(state(0.1), progress(0.1)); });
+  refused([&] { writer.write_progress(progress(0.1)); });
+  writer.give_up(progress(0.1), "it was replaced");
+  writer.note_end_of_copy("it was replaced");
+  EXPECT_EQ(read_file(run / "run.json"), "theirs");
+  EXPECT_EQ(std::distance(std::filesystem::recursive_directory_iterator(run), {}), 2);
+}
+
+TEST_F(RunDirectory, NamesNoCheckpointThatHasGone) {
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  EXPECT_FALSE(writer.checkpoint_time());
+  writer.write_checkpoint(state(0.0), progress(0.0));
+  EXPECT_EQ(writer.checkpoint_time(), 0.0);
+  std::filesystem::remove(run / "checkpoint.h5");
+  std::filesystem::create_directory(run / "checkpoint.h5");
+  EXPECT_FALSE(writer.checkpoint_time());
+}
+
+// Where no draft can be, the record is written over; not what is no record.
+TEST_F(RunDirectory, WritesNoEndIntoAPipeOrThroughALink) {
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  std::filesystem::create_directory(run / "run.json.tmp");
+  std::filesystem::remove(run / "run.json");
+  ASSERT_EQ(::mkfifo((run / "run.json").c_str(), 0600), 0);
+  ::alarm(20);  // who opens a pipe waits for its other end
+  writer.give_up(progress(0.1), "an end");
+  ::alarm(0);
+  std::filesystem::remove(run / "run.json");
+  std::ofstream(run / "mine.txt") << "mine";
+  std::filesystem::create_symlink("mine.txt", run / "run.json");
+  writer.give_up(progress(0.1), "an end");
+  EXPECT_EQ(read_file(run / "mine.txt"), "mine");
 }
 
 TEST_F(RunDirectory, TwoRunsAreEqualToTheByte) {
