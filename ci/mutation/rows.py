@@ -116,7 +116,7 @@ class Rows:
         for path in (self.work / "runs").iterdir():
             os.symlink(path.resolve(), place / path.name)
         if mutant.number in self.reached["check"]:
-            changed = self.changed(place, environment, due)
+            changed = self.changed(place, environment, {run[0] for run in due})
             if changed:
                 return "noticed", changed
         remaining, spend = self.in_order(due), self.seconds["check"]
@@ -133,7 +133,7 @@ class Rows:
                     self.noticed[run[0]] += 1
                     return "noticed", f"run {run[0]}: {ended.how}"
             remaining, spend = remaining[batch:], 2.0 * spend
-            changed = self.changed(place, environment, remaining)
+            changed = self.changed(place, environment, {run[0] for run in remaining} | set(self.others))
             if changed:
                 self.noticed[self.reads.get(changed.split(": ")[0], [None])[0]] += 1
                 return "noticed", changed
@@ -143,13 +143,11 @@ class Rows:
         """By what each has noticed so far for a second of its time."""
         return sorted(due, key=lambda run: -(1 + self.noticed[run[0]]) / max(self.seconds[run[0]], 0.01))
 
-    def changed(self, runs, environment, remaining):
-        """The first row with another verdict, or ''; those that read one of the `remaining` runs, still without the
-        fault, are not asked."""
+    def changed(self, runs, environment, without):
+        """The first row with another verdict, or ''; those that read a run of `without`, which lacks the fault, are not asked."""
         now = self.verdicts(runs, environment, self.work / "verdicts-with-fault")
         if now is None:
             return "the comparison fails"
-        without = {run[0] for run in remaining}
         return next((f"{row}: {self.base.get(row, 'no row')} -> {now.get(row, 'no row')}" for row in {**self.base, **now}
                      if now.get(row) != self.base.get(row) and without.isdisjoint(self.reads.get(row, []))), "")
 

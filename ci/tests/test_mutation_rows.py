@@ -121,3 +121,13 @@ def test_two_runs_are_held_against_each_other_once_both_have_the_fault(stand_ins
     assert made.judge(Numbered("00000001"))[1] == "like.row: agrees -> differs"
     made.base |= {"like.row": "differs", "s2.row": "differs"}  # as if no value told of it
     assert made.judge(Numbered("00000001")) == ("survived", "")
+
+
+def test_a_run_with_the_fault_is_not_held_against_one_that_is_too_dear_to_have_it(stand_ins):
+    made, _ = stand_ins
+    made.others.append("like")
+    (made.work / "runs/like").mkdir()
+    (made.work / "runs/like/value").write_text("1")
+    made.seconds |= {"check": 0.0}
+    made.base |= {"like.difference-s2": "agrees", "like.row": "agrees", "s2.row": "differs"}  # as if its value told nothing
+    assert made.judge(Numbered("00000001")) == ("survived", "")

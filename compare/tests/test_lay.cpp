@@ -84,7 +84,7 @@ TEST_F(Lay, WhatIsTooLargeToCompareIsRefused) {
   for (const char* text : {"time [s],front_dilute [m]\n0,1e308\n1,-1e308\n",
                            "time [s],front_dilute [m]\n-1.7e308,1\n1.7e308,2\n",
                            "time [s],run_out [-]\n0,1\n1.7e308,2\n1.75e308,2\n",
-                           "time [s],p_base [Pa]\n0,1e200\n1e200,-1e200\n"}) {
+                           "time [s],p_base [Pa]\n0,1e200\n1e200,1e200\n"}) {
     const compare::Run run = theirs(text);
     EXPECT_THROW(lay(run, run), std::invalid_argument) << text;
   }

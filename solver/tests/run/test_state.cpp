@@ -92,5 +92,14 @@ TEST(InitialState, WithOnePackingForAllNothingIsBorneYet) {
   }
 }
 
+// A row that the bed fills in part has the colour of the grains in it.
+TEST(InitialState, CellsFilledInPartHaveTheirGrainsColour) {
+  Scene scene = bed(0, 2, 2500.0);
+  scene.bed->box.upper[1] = 2.5 * h;
+  const Column column(scene);
+  for (int j = 0; j < rows; ++j)
+    EXPECT_EQ(column.state.phi[column.tank.grid.cells.index(1, j, 0)], j < 3 ? 1.0 : 0.0) << j;
+}
+
 }  // namespace
 }  // namespace granvof
