@@ -13,8 +13,11 @@ using test::Simulation;
 
 constexpr int steps = 12;
 constexpr double step = 1e-3;  // [s]
-// Of a field's largest value or of its scale: what the solvers leave at tight tolerances.
-constexpr double agreement = 1e-8;
+// Of a field's largest value or of its scale: what the solvers leave at tight tolerances, 5e-9 at most in 2D
+// and 2e-8 in 3D (of P_c, in the first step).
+double agreement_in(int dimensions) {
+  return dimensions == 2 ? 1e-8 : 1e-7;
+}
 
 // The smaller tank, what is changed in it, and the walls that take its place in the larger one.
 struct Walls {
@@ -67,6 +70,7 @@ TEST_P(InnerWall, IsAWallOfTheTank) {
   const Walls& walls = GetParam();
   Simulation small(tank(walls.both, walls.small)), large(tank(walls.both, walls.large));
   const Scales scales = scales_of(small.scene);
+  const double agreement = agreement_in(small.grid.dim);
   double furthest = 0.0;
   for (int i = 0; i < steps; ++i) {
     for_each_pair(small, large, [&](const char*, const Field& a, Field& b, int d) {
