@@ -54,7 +54,7 @@ end = 1
 std::string refused(double f_s, double behind, double ahead, double stream) {
   const Scene scene = drift();
   const Grid grid(scene);
-  const Boundary boundary(grid);
+  Boundary boundary(grid);
   State now = initial_state(grid, scene, boundary), next(grid);
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 4; ++i) {
