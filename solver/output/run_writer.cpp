@@ -187,9 +187,13 @@ std::optional<double> RunWriter::checkpoint_time() const {
   return is_in_place() && fs::is_regular_file(checkpoint_path(), none) ? checkpoint_time_ : std::nullopt;
 }
 
-void RunWriter::start_writing() {
+void RunWriter::require_in_place() const {
   if (!is_in_place())
     throw OutputError("write to", directory_, "it was removed or replaced while the run went on");
+}
+
+void RunWriter::start_writing() {
+  require_in_place();
   if (series_) return;
   if (resume_time_) {
     start_resumed(*resume_time_);
@@ -297,6 +301,7 @@ FilesWritten RunWriter::files() const {
 }
 
 void RunWriter::write_record(const RunProgress& progress, const RunExit& exit) {
+  require_in_place();
   write_file_atomically(directory_ / record_name, run_record_text(scene_, record_, progress, files(), exit));
 }
 

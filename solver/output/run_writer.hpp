@@ -71,6 +71,7 @@ class RunWriter {
   RunWriter(std::filesystem::path directory, Scene scene, RunStart start, std::span<const Column> monitors);
   void start_writing();
   bool is_in_place() const;
+  void require_in_place() const;
   void start_fresh();
   void start_resumed(double time);
   void write_record(const RunProgress& progress, const RunExit& exit);
