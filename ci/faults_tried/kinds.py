@@ -1,10 +1,14 @@
 """The kinds of faults. Each takes the bench and an entry of the table, and yields (name of the try, why it is not held); the
 second is empty where it is."""
 
+import contextlib
+import os
+import resource
 import shutil
 
 from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, ranks, reading, scarce, surroundings, threads
-from faults_tried.bench import PATIENCE, SAMPLE, NotTried, TableError, refused
+from faults_tried.bench import PATIENCE, SAMPLE, NotTried, TableError, listed, refused
+from faults_tried.runs import crashed
 
 
 PROGRAMS = ("solver/granvof", "compare/granvof-compare", "reference/demvof/demvof")
@@ -68,15 +72,46 @@ def not_said(ended):
     return "" if ended.stderr.strip() and b"Traceback" not in ended.stderr + ended.stdout else f"it says {ended.stderr[-150:]!r}"
 
 
+@contextlib.contextmanager
+def full_device(place):
+    with open("/dev/full", "wb") as target:
+        yield {"stdout": target}
+
+
+@contextlib.contextmanager
+def may_not_grow(place):
+    with open(place / "said", "wb") as target:
+        yield {"stdout": target, "preexec_fn": scarce.limit(resource.RLIMIT_FSIZE, 0)}
+
+
+@contextlib.contextmanager
+def nobody_reads(place):
+    reads, writes = os.pipe()
+    os.close(reads)
+    with open(writes, "wb") as target:
+        yield {"stdout": target}
+
+
+OUTPUTS = {"/dev/full": full_device, "a file that may not grow": may_not_grow, "a pipe that nobody reads": nobody_reads}
+
+
 def outputs(bench, entry):
-    """Output that cannot be written: no success, which it is otherwise."""
-    whole = bench.call(bench.filled(entry["command"]))
-    if whole is None or whole.returncode != 0:
-        raise TableError(f"{' '.join(entry['command'])}: exit code {whole and whole.returncode} with an output that can be written")
-    with open(entry["stdout"], "wb") as target:
-        ended = bench.call(bench.filled(entry["command"]), stdout=target)
-    yield (f"{' '.join(entry['command'][:2])} > {entry['stdout']}",
-           "" if ended is not None and ended.returncode > 0 else f"exit code {ended and ended.returncode}")
+    """Output that cannot be written: no success, which it is otherwise, and a line that says so; of a pipe none is needed."""
+    for command in entry["commands"]:
+        if "{demvof}" in command and not bench.demvof.exists():
+            continue
+        whole = bench.call(bench.filled(command))
+        if whole is None or whole.returncode != 0:
+            raise TableError(f"{' '.join(command)}: exit code {whole and whole.returncode} with an output that can be written")
+        for name, opened in listed(entry, "stdouts", OUTPUTS):
+            with opened(bench.place()) as options:
+                ended = bench.call(bench.filled(command), **options)
+            why = "" if ended is not None and ended.returncode != 0 else f"exit code {ended and ended.returncode}"
+            if not why and name != "a pipe that nobody reads":
+                why = crashed(ended)
+            if not why and b"Traceback" in ended.stderr:
+                why = "a traceback"
+            yield f"{' '.join(command[:2])} > {name}", why
 
 
 def made_locales(bench, names):

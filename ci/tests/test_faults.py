@@ -73,7 +73,7 @@ def test_a_contradiction_that_is_taken_without_a_word_is_named(tmp_path):
 
 def test_parts_try_all_between_them_and_each_once(tmp_path):
     """Five tries for three parts, one of which is not held; and a kind that is not divided."""
-    text = BAD_VALUES.replace('"nan", "0"', '"1", "2", "3", "4", "5"') + '[[outputs]]\ncommand = ["{granvof}"]\nstdout = "/dev/full"\n'
+    text = BAD_VALUES.replace('"nan", "0"', '"1", "2", "3", "4", "5"') + '[[outputs]]\ncommands = [["{granvof}"]]\nstdouts = ["/dev/full"]\n'
     build = stand_in(tmp_path / "build", f'echo "$*" >> {tmp_path}/calls; [ $# = 0 ] && {{ echo said || exit 2; exit 0; }}\n'
                      'case "$*" in *=4*) exit 0;; esac; echo no >&2; exit 2')
     done = subprocess.run([FAULTS, "--jobs", "3", "--build-dir", build, "--table", table_of(tmp_path, text)], capture_output=True, text=True)
@@ -193,7 +193,7 @@ def test_the_report_shows_what_was_tried(tmp_path):
 
 
 def test_a_full_standard_output_must_not_be_a_success(tmp_path):
-    text = '[[outputs]]\ncommand = ["{granvof}"]\nstdout = "/dev/full"\n'
+    text = '[[outputs]]\ncommands = [["{granvof}"]]\nstdouts = ["/dev/full"]\n'
     assert tried(tmp_path, "echo said 2>/dev/null; exit 0", text).returncode == 1
     assert tried(tmp_path, "echo said || exit 2; exit 0", text).returncode == 0
     assert tried(tmp_path, "exit 2", text).returncode == 2  # of a program that always fails it says nothing

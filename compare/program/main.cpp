@@ -218,7 +218,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_standard_streams_taken();
+  prepare_standard_streams();
   try {
     const int code = parse_and_run(argc, argv);
     require_stdout_written();

@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
-from complaint import complain, given_path  # noqa: E402
+from complaint import complain, ended, given_path  # noqa: E402
 from granvof_files import json_of, required, write_json  # noqa: E402
 from report import style  # noqa: E402
 from report.results import Damaged, read_json  # noqa: E402
@@ -325,4 +325,4 @@ def shrink(source, target):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(ended(main, sys.argv[1:]))

@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
-from complaint import complain, given_path  # noqa: E402
+from complaint import complain, ended, given_path  # noqa: E402
 from granvof_files import write_whole  # noqa: E402
 from report import charts, figures, kept_results, page, results, sections  # noqa: E402
 
@@ -47,7 +47,7 @@ def write(loaded, options):
 
 if __name__ == "__main__":
     try:
-        sys.exit(main(sys.argv[1:]))
+        sys.exit(ended(main, sys.argv[1:]))
     except OSError as cause:  # a full disk, above all
         complain(f"report: it cannot be written: {cause}")
         sys.exit(1)

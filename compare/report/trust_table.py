@@ -18,7 +18,7 @@ from statistics import mean
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
-from complaint import complain, given_path  # noqa: E402
+from complaint import complain, ended, given_path  # noqa: E402
 from granvof_files import json_of, write_whole  # noqa: E402
 from report import charts, gallery, kept_results  # noqa: E402
 
@@ -282,4 +282,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(ended(main, sys.argv[1:]))

@@ -14,7 +14,7 @@ void for_side(const Layout& l, int d, Body&& body) {
 
 }  // namespace
 
-Boundary::Boundary(const Grid& grid) : grid_(grid) {
+Boundary::Boundary(const Grid& grid) : grid_(grid), walls_(grid) {
   grid.for_each_open_side([&](int d, bool upper) {
     const SideRule& rule = grid.side(d, upper);
     if (rule.pressure) set_beyond(side_pressure_, d, upper, rule.pressure);

@@ -1,8 +1,9 @@
-// Ghost values and given faces at the sides of the tank.
+// Ghost values and given faces at the sides of the tank, and the walls inside it.
 #pragma once
 
 #include "solver/grid/communicator.hpp"
 #include "solver/grid/field.hpp"
+#include "solver/grid/inner_walls.hpp"
 
 namespace granvof {
 
@@ -33,6 +34,10 @@ class Boundary {
   void exchange(double* values) const { granvof::exchange(grid_.cells, values); }
 
   const SideRule& side(int direction, bool upper) const { return grid_.side(direction, upper); }
+  // What ghosts are to the sides, to whoever looks across obstacles or the gate.
+  const InnerWalls& walls() const { return walls_; }
+  // The gate has moved, see InnerWalls.
+  void shut_gate(int face, int open_rows) { walls_.shut_gate(face, open_rows); }
 
  private:
   template <typename Rule>
@@ -47,6 +52,7 @@ class Boundary {
   const Grid& grid_;
   // Both at the index of the first cell beyond a side, allocated if a side has them.
   Field side_pressure_, flows_back_;
+  InnerWalls walls_;
 };
 
 }  // namespace granvof

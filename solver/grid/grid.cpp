@@ -20,13 +20,19 @@ Layout layout_of(const Scene& scene, const Communicator* communicator) {
   return slab_of(cells, scene.dimensions, communicator->size(), communicator->rank());
 }
 
+std::array<bool, 6> sides_that_pass(const Scene& scene) {
+  std::array<bool, 6> flows{};
+  for (int side = 0; side < 2 * scene.dimensions; ++side) flows[side] = side_rule(scene, side).is_open();
+  return flows;
+}
+
 }  // namespace
 
 Grid::Grid(const Scene& scene, const Communicator* communicator)
     : dim(scene.dimensions),
       cells(layout_of(scene, communicator)),
       h(scene.grid.spacing),
-      obstacles(cells, dim, h, scene.obstacles) {
+      obstacles(cells, dim, h, scene.obstacles, sides_that_pass(scene)) {
   for (int side = 0; side < 6; ++side) {
     tank_sides[side] = side_rule(scene, side);
     const bool seam = side < 2 * dim && cells.seam(side / 2, side % 2 == 1);

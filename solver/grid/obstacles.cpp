@@ -1,5 +1,6 @@
 #include "solver/grid/obstacles.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "solver/scene/box_cells.hpp"
@@ -25,7 +26,8 @@ bool in_the_tank(const Layout& l, const std::array<int, 3>& at) {
 
 }  // namespace
 
-Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::vector<Box>& boxes) {
+Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::vector<Box>& boxes,
+                     const std::array<bool, 6>& flows) {
   if (boxes.empty()) return;
   solid_.assign(l.size, 0);
   for (const Box& box : boxes) {
@@ -36,16 +38,16 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
       solid = 1;
     });
   }
-  // Copies beyond joined ends.
+  // Copies beyond joined ends, and of what stands at a side beyond that.
   std::array<int, 3> lower{}, upper = l.n;
   for (int d = 0; d < dim; ++d) {
-    if (!l.periodic[d]) continue;
     lower[d] = -l.ghost[d];
     upper[d] += l.ghost[d];
   }
   for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
     std::array<int, 3> inside{};
-    for (int d = 0; d < 3; ++d) inside[d] = (at[d] % l.n[d] + l.n[d]) % l.n[d];
+    for (int d = 0; d < 3; ++d)
+      inside[d] = l.periodic[d] ? (at[d] % l.n[d] + l.n[d]) % l.n[d] : std::clamp(at[d], 0, l.n[d] - 1);
     solid_[static_cast<std::size_t>(l.index(at))] = solid_[static_cast<std::size_t>(l.index(inside))];
   });
   for (int d = 0; d < dim; ++d) {
@@ -55,24 +57,30 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
       const std::ptrdiff_t c = l.index(at);
       if (is_solid(c) || is_solid(c - l.stride[d])) faces_[d].push_back(c);
     });
-    for (int e = d + 1; e < dim; ++e) find_edges(l, d, e);
+    for (int e = d + 1; e < dim; ++e) find_edges(l, d, e, flows);
   }
   find_surface(l, dim);
 }
 
-// Not those on sides of the tank, which are walls themselves.
-void Obstacles::find_edges(const Layout& l, int d, int e) {
+// Not those on closed sides of the tank, which are walls themselves.
+void Obstacles::find_edges(const Layout& l, int d, int e, const std::array<bool, 6>& flows) {
   std::array<int, 3> lower{}, upper = l.n;
   for (const int axis : {d, e}) {
-    lower[axis] = l.periodic[axis] ? 0 : 1;
-    upper[axis] += l.periodic[axis] ? 1 : 0;
+    lower[axis] = l.periodic[axis] || flows[2 * axis] ? 0 : 1;
+    if (l.periodic[axis] || flows[2 * axis + 1]) upper[axis] += 1;
   }
   const std::ptrdiff_t s = l.stride[d], t = l.stride[e];
   for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
     Edge edge;
     edge.place = at;
+    for (const int axis : {d, e}) {
+      const bool last = at[axis] == l.n[axis];
+      if (l.periodic[axis])
+        edge.copy = edge.copy || last;
+      else
+        edge.on_side = edge.on_side || last || at[axis] == 0;
+    }
     edge.at = l.index(at);
-    edge.copy = at[d] == l.n[d] || at[e] == l.n[e];
     for (const std::ptrdiff_t c : {edge.at, edge.at - s, edge.at - t, edge.at - s - t})
       if (!is_solid(c)) edge.open[edge.cells++] = c;
     if (edge.cells == 0 || edge.cells == 4) return;
@@ -84,6 +92,10 @@ void Obstacles::find_edges(const Layout& l, int d, int e) {
     take(e, edge.at, t);
     take(e, edge.at - s, t);
     edge.flat = edge.cells == 2 && edge.faces == 1;
+    if (edge.flat) {  // the open face is one of the direction along it
+      edge.across = edge.face[0].first == d ? e : d;
+      edge.above = edge.face[0].second == edge.at;
+    }
     edges_[d + e - 1].push_back(edge);
   });
 }

@@ -25,6 +25,9 @@ class Obstacles {
     int cells = 0;
     // Along a flat surface: two open cells, and one open face between them.
     bool flat = false;
+    int across = 0;        // then the direction across that surface,
+    bool above = false;    // and whether the open cells are the upper ones along it
+    bool on_side = false;  // of the tank, through which something flows: half of the edge is inside
     // The copy, at the upper end of a period, of one at its lower end: the last cells have it beside them.
     bool copy = false;
     // Open faces around it: component and index, `faces` of them.
@@ -32,10 +35,13 @@ class Obstacles {
     int faces = 0;
   };
 
-  Obstacles(const Layout& cells, int dim, const Vec3& spacing, const std::vector<Box>& boxes);
+  // `flows`: the sides of the tank through which something flows, two a direction.
+  Obstacles(const Layout& cells, int dim, const Vec3& spacing, const std::vector<Box>& boxes,
+            const std::array<bool, 6>& flows);
 
   bool none() const { return cells_.empty(); }
-  // 1 in a cell of an obstacle, else 0; nullptr without obstacles. Ghosts of periodic directions included.
+  // 1 in a cell of an obstacle, else 0; nullptr without obstacles. Ghosts included: beyond a side an
+  // obstacle goes on.
   const char* solid() const { return none() ? nullptr : solid_.data(); }
   // Indices of their cells.
   const std::vector<std::ptrdiff_t>& cells() const { return cells_; }
@@ -52,7 +58,7 @@ class Obstacles {
     std::ptrdiff_t cell = 0;
     std::vector<std::ptrdiff_t> beside;
   };
-  void find_edges(const Layout& l, int d, int e);
+  void find_edges(const Layout& l, int d, int e, const std::array<bool, 6>& flows);
   void find_surface(const Layout& l, int dim);
   bool is_solid(std::ptrdiff_t c) const { return solid_[static_cast<std::size_t>(c)] != 0; }
 

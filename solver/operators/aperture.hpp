@@ -14,6 +14,10 @@ class Aperture {
   // Moves the gate: it is closed up to t = 0 and its lower edge is at speed * t after. Returns true if it
   // moved.
   bool update(double time);
+  // The gate's faces, as InnerWalls::shut_gate() takes them.
+  bool has_gate() const { return gate_.has_value(); }
+  int gate_face() const { return gate_face_; }
+  int open_rows() const { return open_rows_; }
 
   // 1 or 0 on every face of direction d; the faces of an open top are 1 for the fluid, and 0 for the solid
   // because inner_faces() leaves them out.

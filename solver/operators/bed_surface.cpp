@@ -45,11 +45,14 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
     const std::ptrdiff_t below = light ? grid.stride(vertical) : -grid.stride(vertical);
     const double sign = light ? -1.0 : 1.0;
     const double end = grid.side(vertical, light).bears_grains ? 1.0 : 0.0;
+    const SideRule& far = grid.side(vertical, !light);
+    const bool closed = !far.joined && !far.solid_fraction && !far.passes_grains;
     for (int step = 0; step < n; ++step) {
-      const bool first = step == 0;
+      const bool first = step == 0, nothing_above = closed && step == n - 1;
       for_each(grid.cells, row_of_cells(grid, light ? n - 1 - step : step, 0), [=](std::ptrdiff_t c) {
         const std::ptrdiff_t b = c + below, above = c - below;
-        const double own = std::min(f[c], packed), bare = own - f[above];
+        const double over = nothing_above ? 0.0 : f[above];
+        const double own = std::min(f[c], packed), bare = own - over;
         const double excess = sign * (rho_s - mixture(a[c], rho_l, rho_g));
         const bool on_obstacle = solid != nullptr && !first && solid[b] != 0;
         r[c] = first         ? end
@@ -57,7 +60,7 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
                              : std::max(1.0 - ramp(packed - f[b], gap_that_yields * packed), hold[b] * r[b]);
         // none; they press the other way; or they carry others
         if (own < least_solid_fraction || excess <= 0.0 || bare <= 0.0) return;
-        hold[c] = 1.0 - ramp(f[above], falling_that_frees * own);
+        hold[c] = 1.0 - ramp(over, falling_that_frees * own);
         const double weight = half * excess * bare * r[c];
         const double borne = first || on_obstacle ? weight : std::min(weight, p[b]);
         pressure[c] = borne;
@@ -67,20 +70,25 @@ void PartCells::update(const Grid& grid, const Scene& scene, const Field& f_s, c
   }
 }
 
-void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
-                     Field& pressure) {
+void set_half_weights(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
+                      Field& weight) {
   const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
+  const double half = 0.5 * normal_gravity(scene) * grid.h[vertical];
   const double *f = f_s.data(), *a = alpha.data();
+  double* w = weight.data();
+  for_each(grid.cells, grid.cells_and_ghosts(1),
+           [=](std::ptrdiff_t c) { w[c] = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g)); });
+}
+
+void extend_to_walls(const Grid& grid, const Field& half_weight, Field& pressure) {
+  const double* w = half_weight.data();
   double* p = pressure.data();
   for (const bool upper : {false, true}) {
     if (!grid.side(vertical, upper).bears_grains) continue;
     const std::ptrdiff_t out = upper ? grid.stride(vertical) : -grid.stride(vertical);
-    const double half = (upper ? -0.5 : 0.5) * normal_gravity(scene) * grid.h[vertical];
-    const int beyond = upper ? grid.cells.n[vertical] : -1;
-    for_each(grid.cells, row_of_cells(grid, beyond, 1), [=](std::ptrdiff_t b) {
-      const std::ptrdiff_t c = b - out;
-      const double weight = half * f[c] * (rho_s - mixture(a[c], rho_l, rho_g));
-      p[b] = p[c] + 2.0 * std::min(std::max(weight, 0.0), p[c]);
+    const double towards = upper ? -1.0 : 1.0;
+    for_each(grid.cells, row_of_cells(grid, upper ? grid.cells.n[vertical] : -1, 1), [=](std::ptrdiff_t b) {
+      p[b] = p[b - out] + 2.0 * borne_by_wall(p[b - out], towards * w[b - out]);
     });
   }
 }

@@ -27,6 +27,8 @@
 // Own derivation; it vanishes with the grid, like the cells it is about.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/grid/field.hpp"
 
 namespace granvof {
@@ -55,10 +57,20 @@ struct PartCells {
   Field support_;
 };
 
-// Contact pressure on floor and lid [Pa]: adds to the ghosts of `pressure` (mirrored on entry) twice the half
-// weight of the cell's grains, but not more than the cell's own pressure again, so that the mean over both
-// sides is the pressure at the wall itself: a layer of one cell presses on the floor with its whole weight.
-void extend_to_walls(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
-                     Field& pressure);
+// Half the weight of a cell's grains in the fluid, per area [Pa], < 0 where they press upwards: what lies
+// between the middle of the cell and its floor or lid. Ghosts are filled where f_s and alpha have theirs.
+void set_half_weights(const Grid& grid, const Scene& scene, const Field& f_s, const Field& alpha,
+                      Field& weight);
+
+// What a wall bears beyond the contact pressure in the middle of the cell beside it [Pa]; `weight`: half the
+// cell's weight towards the wall. At most the pressure again.
+inline double borne_by_wall(double pressure, double weight) {
+  return std::min(std::max(weight, 0.0), pressure);
+}
+
+// Contact pressure on floor and lid [Pa]: adds to the ghosts of `pressure` (mirrored on entry) twice what the
+// wall bears beyond the cell, so that the mean over both sides is the pressure at the wall itself: a layer of
+// one cell presses on the floor with its whole weight. On obstacles the same: friction_law.cpp.
+void extend_to_walls(const Grid& grid, const Field& half_weight, Field& pressure);
 
 }  // namespace granvof

@@ -130,8 +130,8 @@ void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_direction
   for (int d = 0; d < grid_.dim; ++d) {
     const Range faces = grid_.flux_faces(d);
     if (new_directions) {
-      fraction_.face_values(grid_, f_s, us_[d], d, dt, faces, f_upwind_s_[d]);
-      fraction_.face_values(grid_, f_s, uc_[d], d, dt, faces, f_upwind_c_[d]);
+      fraction_.face_values(grid_, boundary_.walls(), f_s, us_[d], d, dt, faces, f_upwind_s_[d]);
+      fraction_.face_values(grid_, boundary_.walls(), f_s, uc_[d], d, dt, faces, f_upwind_c_[d]);
       boundary_.exchange(f_upwind_s_[d]);
       boundary_.exchange(f_upwind_c_[d]);
     }
@@ -227,7 +227,7 @@ double CoupledPressure::turned_flux(double dt, const Field& f_s) {
   for (int d = 0; d < grid_.dim; ++d) {
     const double dt_h = dt / grid_.h[d];
     const auto look = [&](const FaceField& velocity, const FaceField& taken, const Range& faces) {
-      fraction_.face_values(grid_, f_s, velocity[d], d, dt, faces, present_);
+      fraction_.face_values(grid_, boundary_.walls(), f_s, velocity[d], d, dt, faces, present_);
       const double *u = velocity[d].data(), *used = taken[d].data(), *present = present_.data();
       largest = max_over(grid_.cells, faces, largest,
                          [=](std::ptrdiff_t c) { return std::fabs((present[c] - used[c]) * u[c]) * dt_h; });
@@ -244,7 +244,7 @@ void CoupledPressure::extrapolate_points(double dt, const Field& f_s, const Face
   point_f_ = f_s;
   for (int d = 0; d < grid_.dim; ++d) {
     const Range faces = grid_.flux_faces(d);
-    fraction_.face_values(grid_, f_s, u_s_old[d], d, dt, faces, f_upwind_s_[d]);
+    fraction_.face_values(grid_, boundary_.walls(), f_s, u_s_old[d], d, dt, faces, f_upwind_s_[d]);
     const double *phi = f_upwind_s_[d].data(), *u = u_s_old[d].data();
     double* flux = us_[d].data();
     for_each(grid_.cells, faces, [=](std::ptrdiff_t c) { flux[c] = phi[c] * u[c]; });

@@ -78,7 +78,7 @@ class Friction {
   void slip_on_bumps(const Rheology& rheology);
   void mark_faces(const FaceInertia& inertia, const Aperture& aperture);
   void cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rheology& rheology);
-  void hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane);
+  void hold_to_walls(const FaceInertia& inertia, const Rheology& rheology, int d, int e);
   void set_own_diffusion(const FaceField& mass);
   void set_multigrids();
   FrictionForm form(const FaceField& mass) const;

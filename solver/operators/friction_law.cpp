@@ -44,6 +44,9 @@ void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceFiel
       share[c] = free_face(c) || free_face(c - along) ? 0.0 : 1.0;
       if (share[c] == 0.0) g[c] = (u[c] - u[c - up]) * inv_h;
     });
+    const Range edges = Grid::edges(box_, d, e);
+    for (const InnerWalls::Edge& wall : boundary_.walls().edges(plane))
+      if (edges.contains(wall.place) && share[wall.at] == 0.0) g[wall.at] *= wall.share;
     for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
       const double before = squared[c];
       squared[c] = squared_shear_of_cell(g, c, s, t);
@@ -59,7 +62,7 @@ void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceFiel
 }
 
 void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain) {
-  strain_.update(grid_, u_strain, box_);
+  strain_.update(grid_, boundary_.walls(), u_strain, box_);
   if (scene_.numerics.bed_surface == BedSurface::part_cells) free_faces_of_part_cells(rheology, u_strain);
   boundary_.fill_scalar(strain_.normal_squared);
   const double n = scene_.contact.regularisation;
@@ -127,16 +130,18 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
       const double* g = strain_.shear[plane].data();
       double* edge = mu_edge_[plane].data();
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
-      for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
+      // by the contact pressure of each cell around
+      const auto viscosity_of_edge = [=](std::ptrdiff_t c, auto pressure_of) {
         const std::array<std::ptrdiff_t, 4> around{c, c - s, c - t, c - s - t};
         // Only cells in contact count: an average over empty cells would let the bed's surface slide.
         Contacts sum;
         double viscosity = 0.0;
         for (const std::ptrdiff_t a : around) {
           viscosity += 0.25 * kinetic[a];
-          if (p[a] <= 0.0) continue;
+          const double pressure = pressure_of(a);
+          if (pressure <= 0.0) continue;
           ++sum.count;
-          sum.pressure += p[a];
+          sum.pressure += pressure;
           sum.dilatancy += psi[a];
           sum.least += stop[a];
           sum.drag += beta[a];
@@ -146,8 +151,21 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
         if (sum.count > 0)
           viscosity +=
               viscosity_at(sum, std::sqrt(0.5 * (sum.normal_squared / sum.count + 0.5 * g[c] * g[c])));
-        edge[c] = viscosity;
+        return viscosity;
+      };
+      const Range edges = Grid::edges(box_, d, e);
+      for_each(grid_.cells, edges, [=](std::ptrdiff_t c) {
+        edge[c] = viscosity_of_edge(c, [=](std::ptrdiff_t a) { return p[a]; });
       });
+      if (scene_.numerics.bed_surface != BedSurface::part_cells) continue;
+      // What bears grains feels their weight to its surface, as the tank's own floor and lid do.
+      const double* weight = rheology.half_weight.data();
+      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane)) {
+        if (!o.flat || o.across != vertical || !edges.contains(o.place)) continue;
+        const double towards = o.above ? 1.0 : -1.0;
+        edge[o.at] = viscosity_of_edge(
+            o.at, [=](std::ptrdiff_t a) { return p[a] + borne_by_wall(p[a], towards * weight[a]); });
+      }
     }
   }
   set_wall_friction(rheology, u_strain);
@@ -155,20 +173,28 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   slip_on_bumps(rheology);
 }
 
-// Grains stick to an obstacle, whose surface is half a cell from the faces beside it; of the kinetic
-// viscosity only the open cells around have one. Edges at its corners keep the whole distance.
-void Friction::hold_to_obstacles(const FaceInertia& inertia, const Rheology& rheology, int plane) {
+// Grains stick to an obstacle: of the kinetic viscosity only the open cells around have one, and an edge
+// holds nobody where a face, or on a flat surface a cell, beside it has no grains. Edges at its corners keep
+// the whole distance. Along the gate they slip.
+void Friction::hold_to_walls(const FaceInertia& inertia, const Rheology& rheology, int d, int e) {
+  const int plane = plane_index(d, e);
   const double* kinetic = rheology.kinetic_viscosity.data();
   double* viscosity = mu_edge_[plane].data();
   for (const Obstacles::Edge& edge : grid_.obstacles.edges(plane)) {
+    if (edge.on_side) continue;  // on which grains slip
     double& mu = viscosity[edge.at];
     double sum = 0.0;
     for (int i = 0; i < edge.cells; ++i) sum += kinetic[edge.open[i]];
     mu += sum / edge.cells - 0.25 * sum;
-    if (edge.flat) mu *= 2.0;
     for (int i = 0; i < edge.faces; ++i)
       if (inertia.f_s[edge.face[i].first][edge.face[i].second] < least_solid_fraction) mu = 0.0;
+    if (!edge.flat) continue;
+    const double* on_surface = inertia.f_s[edge.across].data();  // half of the open cell's
+    const std::ptrdiff_t surface = edge.above ? 0 : grid_.stride(edge.across);
+    for (int i = 0; i < edge.cells; ++i)
+      if (2.0 * on_surface[edge.open[i] + surface] < least_solid_fraction) mu = 0.0;
   }
+  for (const InnerWalls::Edge& wall : boundary_.walls().edges(plane)) viscosity[wall.at] *= wall.share;
 }
 
 // A face without grains carries the fluid's velocity: a contact stress on its edges would glue the bed's
@@ -189,7 +215,7 @@ void Friction::cut_edges_beside_empty_faces(const FaceInertia& inertia, const Rh
       std::size_t next = 0;
       for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(d, e)))
         edge[o.at] = on_obstacles[next++];
-      hold_to_obstacles(inertia, rheology, plane_index(d, e));
+      hold_to_walls(inertia, rheology, d, e);
     }
   }
 }

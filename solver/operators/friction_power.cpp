@@ -62,7 +62,7 @@ Friction::Power Friction::power(const FaceField& mass, const FaceField& u, const
           spent[c] += 0.25 * kinetic[c] * (squared(c) + squared(c + s) + squared(c + t) + squared(c + s + t));
       });
       for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(d, e)))
-        if (o.flat)  // its strain is over half a cell: four times the square
+        if (o.flat && !o.on_side)  // its strain is over half a cell: four times the square
           for (const std::ptrdiff_t c : {o.open[0], o.open[1]}) spent[c] += 0.75 * kinetic[c] * squared(o.at);
     }
   }

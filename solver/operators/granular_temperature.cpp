@@ -113,6 +113,7 @@ void GranularTemperature::conduct(double dt, const Rheology& rheology, State& ne
       // no conduction into cells without grains
       k[c] = mass[c] > 0.0 && mass[c - s] > 0.0 ? 0.5 * (kappa[c] + kappa[c - s]) * inv_h2 : 0.0;
     });
+    for (const InnerWalls::Place& face : boundary_.walls().closed_faces(d)) k[face.at] = 0.0;
     boundary_.exchange(conductivity_[d]);
     faces.lower[d] = k;
   }

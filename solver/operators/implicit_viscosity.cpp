@@ -65,8 +65,10 @@ void ImplicitViscosity::set_system(int d, double dt, const Field& viscosity, con
       }
     } else {
       for_each(grid_.cells, grid_.edges(d, e), [=](std::ptrdiff_t c) { edge[c] = edge_mean(mu, c, s, t); });
-      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane_index(std::min(d, e), std::max(d, e))))
-        if (o.flat) edge[o.at] *= 2.0;  // half a cell away
+      const int plane = plane_index(std::min(d, e), std::max(d, e));
+      for (const Obstacles::Edge& o : grid_.obstacles.edges(plane))
+        if (o.flat) edge[o.at] = edge_mean(mu, o);
+      for (const InnerWalls::Edge& wall : boundary_.walls().edges(plane)) edge[wall.at] *= wall.share;
       boundary_.exchange(edge_);
       couple([=](std::ptrdiff_t c) { return edge[c]; }, [=](std::ptrdiff_t c) { return edge[c + t]; });
       set_sides(d, e, edge);

@@ -1,6 +1,7 @@
 #include "solver/operators/interface_transport.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "solver/operators/cicsam.hpp"
@@ -52,6 +53,12 @@ void InterfaceTransport::interface_normal(const Field& alpha) {
     const double inv = 0.5 / grid_.h[d];
     double* g = slope_[d].data();
     for_each(grid_.cells, [=](std::ptrdiff_t c) { g[c] = (a[c + s] - a[c - s]) * inv; });
+    const InnerWalls& walls = boundary_.walls();
+    std::array<int, 3> up{}, down{};
+    up[d] = 1;
+    down[d] = -1;
+    for (const InnerWalls::Place& cell : walls.cells())
+      g[cell.at] = (walls.cell_beside(a, cell.at, up) - walls.cell_beside(a, cell.at, down)) * inv;
     boundary_.fill_scalar(slope_[d]);
   }
 }
@@ -65,19 +72,27 @@ void InterfaceTransport::face_alpha(int d, const Field& alpha, const FaceField& 
   double* corr = correction_[d].data();
   const std::ptrdiff_t s = grid_.stride(d);
   const bool cicsam_on = scene_.numerics.interface_scheme == InterfaceScheme::cicsam;
-  for_each(grid_.cells, grid_.fluid_faces(d), [=](std::ptrdiff_t c) {
+  // of face c, with alpha by `values` along a stride, `at` the upper side of the face
+  const auto correction = [=](std::ptrdiff_t c, const double* values, std::ptrdiff_t at, std::ptrdiff_t t) {
     const bool forward = q[c] > 0.0;
     const std::ptrdiff_t donor = forward ? c - s : c;
-    const std::ptrdiff_t acceptor = forward ? c : c - s;
-    const std::ptrdiff_t upwind = forward ? c - 2 * s : c + s;
-    corr[c] = 0.0;
-    if (!cicsam_on || a[donor] == a[acceptor] || q[c] == 0.0) return;
+    const double of_donor = forward ? values[at - t] : values[at],
+                 of_acceptor = forward ? values[at] : values[at - t];
+    const double of_upwind = forward ? values[at - 2 * t] : values[at + t];
+    if (!cicsam_on || of_donor == of_acceptor || q[c] == 0.0) return 0.0;
     const double square =
         gx[donor] * gx[donor] + gy[donor] * gy[donor] + (gz != nullptr ? gz[donor] * gz[donor] : 0.0);
     const double cosine_squared = square > 0.0 ? gd[donor] * gd[donor] / square : 1.0;
-    const double face = cicsam_face_value(a[upwind], a[donor], a[acceptor], co[donor], cosine_squared);
-    corr[c] = (face - a[donor]) * q[c];
-  });
+    const double face = cicsam_face_value(of_upwind, of_donor, of_acceptor, co[donor], cosine_squared);
+    return (face - of_donor) * q[c];
+  };
+  const Range faces = grid_.fluid_faces(d);
+  for_each(grid_.cells, faces, [=](std::ptrdiff_t c) { corr[c] = correction(c, a, c, s); });
+  for (const InnerWalls::Place& beside : boundary_.walls().faces(d)) {
+    if (!faces.contains(beside.place)) continue;
+    const auto line = boundary_.walls().cells_across(a, beside.at, d);
+    corr[beside.at] = correction(beside.at, line.data(), 2, 1);
+  }
   boundary_.exchange(correction_[d]);
 }
 

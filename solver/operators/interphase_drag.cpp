@@ -16,7 +16,7 @@ constexpr double least_moving = 0.05;
 }  // namespace
 
 void InterphaseDrag::update(const Boundary& boundary, const State& now, const FaceInertia& inertia,
-                            const PartCells& part_cells) {
+                            const Rheology& rheology) {
   if (!scene_.model.drag) return;  // beta_ stays zero
   for (int d = 0; d < grid_.dim; ++d) {
     const double* us = now.u_s[d].data();
@@ -24,12 +24,12 @@ void InterphaseDrag::update(const Boundary& boundary, const State& now, const Fa
     double* w = slip_[d].data();
     for_each(grid_.cells, grid_.cells_and_ghosts(1), [=](std::ptrdiff_t c) { w[c] = uc[c] - us[c]; });
   }
-  scene_.model.drag_law.with([&](auto law) { fill(law, boundary, now, inertia, part_cells); });
+  scene_.model.drag_law.with([&](auto law) { fill(law, boundary, now, inertia, rheology); });
 }
 
 template <typename Law>
 void InterphaseDrag::fill(Law law, const Boundary& boundary, const State& now, const FaceInertia& inertia,
-                          const PartCells& part_cells) {
+                          const Rheology& rheology) {
   const Fluid gas = scene_.gas, liquid = scene_.liquid;
   const double d_s = scene_.solid.diameter;
   const double* a = now.alpha.data();
@@ -39,9 +39,10 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const State& now, c
     const double* f = inertia.f_s[d].data();
     const bool hindered_by_receiver = scene_.numerics.solid_flux != SolidFlux::upwind;
     if (hindered_by_receiver)
-      fraction_.face_values(grid_, now.f_s, slip_[d], d, 0.0, grid_.inner_faces(d), hindering_);
-    const double *receiver = hindering_.data(), *rest = part_cells.at_rest.data(),
-                 *held = part_cells.held.data();
+      fraction_.face_values(grid_, boundary.walls(), now.f_s, slip_[d], d, 0.0, grid_.inner_faces(d),
+                            hindering_);
+    const double *receiver = hindering_.data(), *rest = rheology.part_cells.at_rest.data(),
+                 *held = rheology.part_cells.held.data(), *side = rheology.free_side.data();
     double* beta = beta_[d].data();
     const int e = (d + 1) % grid_.dim, g = (d + 2) % grid_.dim;
     const bool three = grid_.dim == 3;
@@ -60,9 +61,10 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const State& now, c
         square += w2 * w2;
       }
       double moving = f[c];
-      if (d == vertical && (rest[c - s] > 0.0 || rest[c] < 0.0)) {  // a free face
-        const double falls = 1.0 - (rest[c - s] > 0.0 ? held[c - s] : held[c]);
-        moving = std::max(f[c] - falls * 0.5 * (rest[c - s] - rest[c]), least_moving * f[c]);
+      if (d == vertical && (side[c - s] > 0.0 || side[c] < 0.0)) {  // a free face
+        const double falls = 1.0 - (side[c - s] > 0.0 ? held[c - s] : held[c]);
+        const double resting = falls * 0.5 * (rest[c - s] - rest[c]);
+        moving = std::clamp(f[c] - resting, least_moving * f[c], f[c]);
       }
       const double hindering = std::max(hindered_by_receiver ? receiver[c] : moving, closures::lone_grain);
       const double share = moving * (1.0 - f[c]) / (hindering * (1.0 - hindering));

@@ -20,12 +20,12 @@ void MomentumPredictor::convect_fluid(const State& now, const FaceInertia& inert
   const Range faces = grid_.fluid_faces(d);
   if (limited_ && !scene_.liquid_boxes.empty()) {
     const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
-    upwind_power_ +=
-        grid_.cell_volume * convective_acceleration_limited_in(inertia.fluid[d], between_gas_and_liquid,
-                                                               grid_, now.u_c, d, faces, convective_[d]);
+    upwind_power_ += grid_.cell_volume *
+                     convective_acceleration_limited_in(inertia.fluid[d], between_gas_and_liquid, grid_,
+                                                        boundary_.walls(), now.u_c, d, faces, convective_[d]);
   } else {
-    upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.fluid[d], grid_, now.u_c, d, faces,
-                                                                 limited_, convective_[d]);
+    upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.fluid[d], grid_, boundary_.walls(),
+                                                                 now.u_c, d, faces, limited_, convective_[d]);
   }
 }
 
@@ -41,8 +41,8 @@ void MomentumPredictor::update(double dt, const State& now, const FaceInertia& i
     fluid_[d] = convective_[d];
     viscosity.add_acceleration(now.u_c, inertia, d, fluid, fluid_[d]);
     viscous_power_ += viscosity.power_on(now.u_c, inertia, d, convective_[d], fluid_[d]);
-    upwind_power_ += grid_.cell_volume *
-                     convective_acceleration(inertia.solid[d], grid_, now.u_s, d, solid, limited_, solid_[d]);
+    upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.solid[d], grid_, boundary_.walls(),
+                                                                 now.u_s, d, solid, limited_, solid_[d]);
     bound_convection(grid_, now.u_s, d, solid, dt, inertia.f_s[d], solid_that_counts, solid_[d]);
     const double *open = aperture[d].data(), *f = inertia.f_s[d].data(), *m = inertia.fluid[d].data();
     const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();

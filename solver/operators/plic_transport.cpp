@@ -20,14 +20,15 @@ struct Cut {
 using Neighbours = std::array<std::ptrdiff_t, 3>;
 
 // Youngs' normal, out of the liquid, in units of the cell; all zero where alpha is uniform around the cell.
-std::array<double, 3> liquid_normal(const Neighbours& step, const double* a, std::ptrdiff_t c) {
+// alpha(i, j, k) that many cells away.
+template <typename Alpha>
+std::array<double, 3> liquid_normal(bool three, Alpha alpha) {
   std::array<double, 3> n{};
-  const auto [x, y, z] = step;
-  const int deep = z != 0 ? 1 : 0;
+  const int deep = three ? 1 : 0;
   for (int k = -deep; k <= deep; ++k)
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
-        const double value = a[c + i * x + j * y + k * z];
+        const double value = alpha(i, j, k);
         const double wx = 2.0 - std::abs(i), wy = 2.0 - std::abs(j), wz = 2.0 - std::abs(k);
         n[0] -= i * wy * wz * value;
         n[1] -= j * wx * wz * value;
@@ -36,16 +37,15 @@ std::array<double, 3> liquid_normal(const Neighbours& step, const double* a, std
   return n;
 }
 
-// The plane of a cell, false where its neighbours give it no direction.
-bool cut_of(const Neighbours& step, const double* a, std::ptrdiff_t c, Cut& cut) {
-  std::array<double, 3> n = liquid_normal(step, a, c);
+// The plane of a cell that holds `liquid`, false where its neighbours give it no direction.
+bool cut_of(const std::array<double, 3>& n, double liquid, Cut& cut) {
   const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
   if (!(sum > pure)) return false;
   for (int i = 0; i < 3; ++i) {
     cut.mirrored[i] = n[i] < 0.0;
     cut.plane.normal[i] = std::fabs(n[i]) / sum;
   }
-  cut.plane.distance = distance_of_volume(cut.plane.normal, a[c]);
+  cut.plane.distance = distance_of_volume(cut.plane.normal, liquid);
   return true;
 }
 
@@ -83,7 +83,8 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
   const double* q = flux_c[d].data();
   const Neighbours step{grid_.stride(0), grid_.stride(1), grid_.dim == 3 ? grid_.stride(2) : 0};
   flux_.fill(0.0);
-  for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) {
+  // through face c, the normal of its donor by normal_of(donor)
+  const auto carried = [=](std::ptrdiff_t c, auto normal_of) {
     const bool forward = q[c] > 0.0;
     const std::ptrdiff_t donor = forward ? c - s : c;
     const double of_donor = dt_h / fc[donor];  // a flux as the part of the donor that it takes
@@ -91,12 +92,33 @@ void PlicTransport::sweep(int d, double dt, const FaceField& flux_c, Field& alph
     const std::array<double, 2> width{std::max(-q[donor], 0.0) * of_donor,
                                       std::max(q[donor + s], 0.0) * of_donor};
     Cut cut;
-    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width[end] <= pure || !cut_of(step, a, donor, cut)) {
-      liquid[c] = a[donor] * q[c];
-      return;
-    }
-    liquid[c] = leaving(cut, d, a[donor], width)[end] / width[end] * q[c];
+    if (a[donor] <= pure || a[donor] >= 1.0 - pure || width[end] <= pure ||
+        !cut_of(normal_of(donor), a[donor], cut))
+      return a[donor] * q[c];
+    return leaving(cut, d, a[donor], width)[end] / width[end] * q[c];
+  };
+  const bool three = grid_.dim == 3;
+  const Range faces = grid_.flux_faces(d);
+  for_each(grid_.cells, faces, [=](std::ptrdiff_t c) {
+    liquid[c] = carried(c, [=](std::ptrdiff_t donor) {
+      return liquid_normal(
+          three, [=](int i, int j, int k) { return a[donor + i * step[0] + j * step[1] + k * step[2]]; });
+    });
   });
+  const InnerWalls& walls = boundary_.walls();
+  for (const InnerWalls::Place& cell : walls.cells()) {
+    for (const bool upper : {false, true}) {  // what it gives
+      std::array<int, 3> at = cell.place;
+      at[d] += upper ? 1 : 0;
+      const std::ptrdiff_t face = cell.at + (upper ? s : 0);
+      if (!faces.contains(at) || !(upper ? q[face] > 0.0 : q[face] < 0.0)) continue;
+      liquid[face] = carried(face, [&](std::ptrdiff_t donor) {
+        return liquid_normal(three, [&](int i, int j, int k) {
+          return walls.cell_beside(a, donor, {i, j, k});
+        });
+      });
+    }
+  }
   boundary_.exchange(flux_);
   for_each(grid_.cells, [=](std::ptrdiff_t c) {
     const double held = a[c] * fc[c] - dt_h * (liquid[c + s] - liquid[c]);

@@ -90,7 +90,9 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
       side[c] = !part ? 0.0 : solid.density > mixture(a[c], rho_l, rho_g) ? 1.0 : -1.0;
     });
     boundary.exchange(free_side);
-    extend_to_walls(grid, scene, now.f_s, now.alpha, enduring_pressure);
+    if (half_weight.empty()) half_weight = Field(grid);
+    set_half_weights(grid, scene, now.f_s, now.alpha, half_weight);
+    extend_to_walls(grid, half_weight, enduring_pressure);
   }
 }
 

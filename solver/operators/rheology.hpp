@@ -20,6 +20,7 @@ struct Rheology {
   Field free_side;          // +1, -1: grains at rest fill a part of the cell, and its upper, lower face is
                             // free; else 0 [-]
   // Empty where the scene has none:
+  Field half_weight;     // with part-cells: half the weight of a cell's grains, see bed_surface.hpp [Pa]
   Field pore_viscosity;  // mu_c of the fluid between the grains, of laws of viscous contacts [Pa s]
   Field viscous_stress;  // mu_c gamma of viscous_contact_pressure() [Pa]
   Field bump_pressure;   // P_s^K / sqrt(Theta) at the Theta of the kinetic viscosity, beside bumpy walls [Pa

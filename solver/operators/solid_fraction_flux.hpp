@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/grid/field.hpp"
+#include "solver/grid/inner_walls.hpp"
 #include "solver/operators/limiter.hpp"
 
 namespace granvof {
@@ -16,17 +17,17 @@ class SolidFractionFlux {
 
   // Fraction carried through the faces of direction d by velocity u over dt; two ghost layers of f must be
   // filled. At u = 0 the mean of both sides, so that a mirrored scene stays mirrored.
-  void face_values(const Grid& grid, const Field& f_s, const Field& u, int d, double dt, const Range& faces,
-                   Field& face) const {
+  void face_values(const Grid& grid, const InnerWalls& walls, const Field& f_s, const Field& u, int d,
+                   double dt, const Range& faces, Field& face) const {
     switch (scheme_) {
       case SolidFlux::upwind:
         return upwind(grid, f_s, u, d, faces, face);
       case SolidFlux::limited:
         return limited(
-            grid, f_s, u, d, dt, faces, [](double a, double b) { return van_leer(a, b); }, face);
+            grid, walls, f_s, u, d, dt, faces, [](double a, double b) { return van_leer(a, b); }, face);
       case SolidFlux::compressive:
         return limited(
-            grid, f_s, u, d, dt, faces, [](double a, double b) { return superbee(a, b); }, face);
+            grid, walls, f_s, u, d, dt, faces, [](double a, double b) { return superbee(a, b); }, face);
     }
   }
 
@@ -47,23 +48,29 @@ class SolidFractionFlux {
   }
 
   template <typename Slope>
-  static void limited(const Grid& grid, const Field& f_s, const Field& u, int d, double dt,
-                      const Range& faces, Slope slope, Field& face) {
+  static void limited(const Grid& grid, const InnerWalls& walls, const Field& f_s, const Field& u, int d,
+                      double dt, const Range& faces, Slope slope, Field& face) {
     const double *f = f_s.data(), *v = u.data();
     double* out = face.data();
     const std::ptrdiff_t s = grid.stride(d);
     const double courant_per_speed = dt / grid.h[d];
-    for_each(grid.cells, faces, [=](std::ptrdiff_t c) {
-      const double w = v[c];
-      const double middle = f[c] - f[c - s];
+    // by values along a stride, `c` the upper side of the face
+    const auto carried = [=](const double* values, std::ptrdiff_t c, std::ptrdiff_t t, double w) {
+      const double middle = values[c] - values[c - t];
       // the slope, shortened by the Courant number: second order in time too, and bounded up to 1
       const double reach = 0.5 * std::max(1.0 - std::fabs(w) * courant_per_speed, 0.0);
-      const double from_lower = f[c - s] + reach * slope(f[c - s] - f[c - 2 * s], middle);
-      const double from_upper = f[c] - reach * slope(f[c + s] - f[c], middle);
+      const double from_lower = values[c - t] + reach * slope(values[c - t] - values[c - 2 * t], middle);
+      const double from_upper = values[c] - reach * slope(values[c + t] - values[c], middle);
       const double of_lower = share_of_lower(w);
       const double upwind = of_lower * from_lower + (1.0 - of_lower) * from_upper;
-      out[c] = w == 0.0 ? 0.5 * (f[c] + f[c - s]) : upwind;
-    });
+      return w == 0.0 ? 0.5 * (values[c] + values[c - t]) : upwind;
+    };
+    for_each(grid.cells, faces, [=](std::ptrdiff_t c) { out[c] = carried(f, c, s, v[c]); });
+    for (const InnerWalls::Place& beside : walls.faces(d)) {
+      if (!faces.contains(beside.place)) continue;
+      const auto line = walls.cells_across(f, beside.at, d);
+      out[beside.at] = carried(line.data(), 2, 1, v[beside.at]);
+    }
   }
 
   SolidFlux scheme_;

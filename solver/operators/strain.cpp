@@ -9,7 +9,7 @@ StrainRate::StrainRate(const Grid& grid) : squared(grid), normal_squared(grid), 
   }
 }
 
-void StrainRate::update(const Grid& grid, const FaceField& u, const Range& part) {
+void StrainRate::update(const Grid& grid, const InnerWalls& walls, const FaceField& u, const Range& part) {
   double *sq = squared.data(), *normal = normal_squared.data(), *div = divergence.data();
   for_each(grid.cells, part, [=](std::ptrdiff_t c) { normal[c] = div[c] = 0.0; });
   for (int d = 0; d < grid.dim; ++d) {
@@ -32,10 +32,9 @@ void StrainRate::update(const Grid& grid, const FaceField& u, const Range& part)
       const double inv_h = 1.0 / grid.h[d], inv_he = 1.0 / grid.h[e];
       for_each(grid.cells, Grid::edges(part, d, e),
                [=](std::ptrdiff_t c) { g[c] = (v[c] - v[c - t]) * inv_he + (w[c] - w[c - s]) * inv_h; });
-      // The surface of an obstacle is half a cell away.
       const Range edges = Grid::edges(part, d, e);
-      for (const Obstacles::Edge& edge : grid.obstacles.edges(plane_index(d, e)))
-        if (edge.flat && edges.contains(edge.place)) g[edge.at] *= 2.0;
+      for (const InnerWalls::Edge& edge : walls.edges(plane_index(d, e)))
+        if (edges.contains(edge.place)) g[edge.at] *= edge.share;
       for_each(grid.cells, part, [=](std::ptrdiff_t c) {
         plane[c] = squared_shear_of_cell(g, c, s, t);
         sq[c] += plane[c];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/grid/field.hpp"
+#include "solver/grid/inner_walls.hpp"
 
 namespace granvof {
 
@@ -22,9 +23,11 @@ struct StrainRate {
 
   explicit StrainRate(const Grid& grid);
   // One ghost layer of u must be filled.
-  void update(const Grid& grid, const FaceField& u) { update(grid, u, grid.all_cells()); }
+  void update(const Grid& grid, const InnerWalls& walls, const FaceField& u) {
+    update(grid, walls, u, grid.all_cells());
+  }
   // The same for a part of the cells and their edges; other values stay as they are.
-  void update(const Grid& grid, const FaceField& u, const Range& part);
+  void update(const Grid& grid, const InnerWalls& walls, const FaceField& u, const Range& part);
 };
 
 // gamma = 2 ||S'|| of a cell with S:S = squared and div u = div [1/s], S' the deviator of S: the rate at

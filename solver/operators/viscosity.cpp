@@ -1,6 +1,7 @@
 #include "solver/operators/viscosity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "solver/closures/smagorinsky.hpp"
@@ -18,7 +19,7 @@ constexpr double explicit_viscous_number =
 }  // namespace
 
 void FluidViscosity::update(const Boundary& boundary, const State& now) {
-  strain_.update(grid_, now.u_c);
+  set_strain(boundary, now.u_c);
   const double delta =
       grid_.dim == 2 ? std::sqrt(grid_.h[0] * grid_.h[1]) : std::cbrt(grid_.h[0] * grid_.h[1] * grid_.h[2]);
   const Fluid &gas = scene_.gas, &liquid = scene_.liquid;
@@ -74,6 +75,15 @@ void FluidViscosity::add_acceleration(const FaceField& u_c, const FaceInertia& i
       const double ahead = edge_mean(mu, c + t, s, t) * g[c + t], behind = edge_mean(mu, c, s, t) * g[c];
       out[c] += (ahead - behind) * inv_he / m[c];
     });
+    for (const Obstacles::Edge& edge : grid_.obstacles.edges(plane_index(d, e))) {
+      if (!edge.flat || edge.across != e) continue;
+      std::array<int, 3> place = edge.place;
+      if (!edge.above) place[e] -= 1;
+      if (!faces.contains(place)) continue;
+      const double missing = edge_mean(mu, edge) - edge_mean(mu, edge.at, s, t);
+      const std::ptrdiff_t c = edge.face[0].second;
+      out[c] += (edge.above ? -1.0 : 1.0) * missing * g[edge.at] * inv_he / m[c];
+    }
   }
 }
 
@@ -141,7 +151,9 @@ FluidViscosity::Power FluidViscosity::power(const Boundary& boundary, const Face
           sum_over_edges(grid_, d, e, [=](std::ptrdiff_t c) { return edge_mean(mu, c, s, t) * g[c] * g[c]; });
       power.dissipation -=  // half of it is fluid
           sum_of(grid_.cells, grid_.obstacles.edges(plane_index(d, e)), [=](const Obstacles::Edge& edge) {
-            return edge.flat && !edge.copy ? 0.5 * edge_mean(mu, edge.at, s, t) * g[edge.at] * g[edge.at] : 0.0;
+            if (!edge.flat || edge.copy) return 0.0;
+            const double all = edge_mean(mu, edge.at, s, t), mine = 0.5 * edge_mean(mu, edge);
+            return (edge.on_side ? 0.5 : 1.0) * (all - mine) * g[edge.at] * g[edge.at];
           });
     }
   }

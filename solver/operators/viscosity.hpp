@@ -35,7 +35,9 @@ class FluidViscosity {
   const Field& of_cells() const { return viscosity_; }
 
   // Takes the strain of a velocity whose ghosts are filled; the viscosity stays.
-  void set_strain(const FaceField& u_c) { strain_.update(grid_, u_c); }
+  void set_strain(const Boundary& boundary, const FaceField& u_c) {
+    strain_.update(grid_, boundary.walls(), u_c);
+  }
 
   // Power [W] of that stress at the velocity of the strain.
   struct Power {

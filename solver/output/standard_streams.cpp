@@ -1,5 +1,6 @@
 #include "solver/output/standard_streams.hpp"
 
+#include <csignal>
 #include <cstdio>
 #include <stdexcept>
 
@@ -8,7 +9,8 @@
 
 namespace granvof {
 
-void keep_standard_streams_taken() {
+void prepare_standard_streams() {
+  std::signal(SIGXFSZ, SIG_IGN);
   while (true) {
     const int fd = ::open("/dev/null", O_RDWR);
     if (fd > STDERR_FILENO || fd < 0) {

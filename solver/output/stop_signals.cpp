@@ -48,7 +48,6 @@ void listen_to_stop_signals() {
     if (handler_of(signal.number) == request_stop) ::sigaddset(&wanted, signal.number);
   }
   ::pthread_sigmask(SIG_UNBLOCK, &wanted, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int stop_signal() {

@@ -11,8 +11,7 @@ namespace granvof {
 // (SEGV, ABRT, ...), is remembered instead, and none is yet: TERM, INT, HUP, QUIT, USR1, USR2, XCPU, PIPE,
 // the timers and others. One that the caller had ignored (nohup, a shell's background) stays ignored, but
 // PIPE: that is how the run learns that nobody reads it. One for which something else in the program listens
-// (a profiler) is left to it. One that the caller had blocked is let through. XFSZ is ignored: a file that
-// may not grow shows as a failed write.
+// (a profiler) is left to it. One that the caller had blocked is let through.
 void listen_to_stop_signals();
 
 // The number of the last one that has come since; 0 where none has.

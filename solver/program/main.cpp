@@ -223,7 +223,7 @@ int say(const std::exception& error, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  granvof::keep_standard_streams_taken();
+  granvof::prepare_standard_streams();
   send_messages_to_stderr();
   // Of several processes the lowest speaks.
   std::unique_ptr<granvof::Communicator> processes;

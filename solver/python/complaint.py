@@ -1,7 +1,10 @@
 """What a script is given on its command line, and what it has to say of it: one line on stderr, fit for a terminal, whatever a
-name holds."""
+name holds; and how it ends where nobody can read what it prints."""
 
 import argparse
+import errno
+import os
+import signal
 import sys
 import unicodedata
 from pathlib import Path
@@ -25,3 +28,35 @@ def given_path(text):
 
 def complain(text):
     print(printable(str(text)), file=sys.stderr, flush=True)
+
+
+def ended(main, *arguments):
+    """Exit code of a script: what `main` gives. Where its standard output cannot be written it is 1, after a line; where nobody
+    reads it any more (`| head`), that of SIGPIPE, without a word."""
+    try:
+        try:
+            code = main(*arguments)
+        except SystemExit as end:  # argparse has helped
+            code = end.code
+        if sys.stdout is not None:  # closed by the caller
+            sys.stdout.flush()
+        return code
+    except OSError as error:
+        why = not_printable() if error.filename is None else None
+        if why is None:
+            raise
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still to be written goes nowhere
+        if why.errno == errno.EPIPE:
+            return 128 + signal.SIGPIPE
+        complain(f"{Path(sys.argv[0]).name}: cannot write to standard output: {why.strerror}")
+        return 1
+
+
+def not_printable():
+    """Why standard output takes nothing; None where it does."""
+    try:
+        sys.stdout.flush()
+        os.write(sys.stdout.fileno(), b"\n")
+    except OSError as error:
+        return error
+    return None

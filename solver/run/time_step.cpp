@@ -60,7 +60,7 @@ StepReport TimeStep::advance(const State& now, double dt, State& next, const Bod
   return step.report;
 }
 
-TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary)
+TimeStep::TimeStep(const Grid& grid, const Scene& scene, Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
@@ -84,18 +84,26 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundar
       stirred_(grid),
       production_(grid) {
   if (!whole_columns_) continuity_tree_.grow(aperture_);
+  if (aperture_.has_gate()) boundary_.shut_gate(aperture_.gate_face(), aperture_.open_rows());
+}
+
+void TimeStep::move_gate(double time) {
+  if (!aperture_.update(time)) return;
+  if (!whole_columns_) continuity_tree_.grow(aperture_);
+  boundary_.shut_gate(aperture_.gate_face(), aperture_.open_rows());
 }
 
 // What the old level says of the laws. The kinetic viscosity is taken at the old Theta, or where grains begin
 // to shear at a share of what they get.
 void TimeStep::close(Attempt& step) {
   const State& now = step.now;
-  if (aperture_.update(step.next.time) && !whole_columns_) continuity_tree_.grow(aperture_);
+  move_gate(step.next.time);
   inertia_.update(grid_, scene_, now.f_s, now.alpha);
   const bool agitated = scene_.model.granular_temperature != TemperatureModel::off;
-  if (agitated || scene_.model.viscous_contact_pressure) strain_.update(grid_, now.u_strain);
+  if (agitated || scene_.model.viscous_contact_pressure)
+    strain_.update(grid_, boundary_.walls(), now.u_strain);
   rheology_.update(grid_, scene_, boundary_, now, strain_);
-  drag_.update(boundary_, now, inertia_, rheology_.part_cells);
+  drag_.update(boundary_, now, inertia_, rheology_);
   viscosity_.update(boundary_, now);
   if (!agitated) return;
   temperature_.predict(step.dt, now, drag_.beta_of_cells(), rheology_.restitution, strain_, stirred_);
@@ -192,13 +200,13 @@ void TimeStep::carry_liquid(Attempt& step) {
 // would dilate the bed with energy from nothing.
 void TimeStep::pack(Attempt& step) {
   boundary_.fill_velocity(step.next.u_strain, Phase::solid);
-  strain_.update(grid_, step.next.u_strain);
+  strain_.update(grid_, boundary_.walls(), step.next.u_strain);
   shear_packing(grid_, scene_, step.dt, step.next.f_s, rheology_, strain_, step.next.packing);
 }
 
 void TimeStep::agitate(Attempt& step) {
   step.stress = solid_momentum_.power(step.next, production_);
-  strain_.update(grid_, step.next.u_s);
+  strain_.update(grid_, boundary_.walls(), step.next.u_s);
   step.granular = temperature_.advance(step.dt, step.now, flux_s_, drag_.beta_of_cells(), rheology_, strain_,
                                        production_, step.next);
 }
@@ -207,7 +215,7 @@ void TimeStep::account(Attempt& step) {
   State& next = step.next;
   next.fill_ghosts(boundary_);
   const bool implicit = outruns_explicit_viscosity(step);
-  if (implicit) viscosity_.set_strain(next.u_c);
+  if (implicit) viscosity_.set_strain(boundary_, next.u_c);
   const FluidViscosity::Power viscous = viscosity_.power(boundary_, implicit ? next.u_c : step.now.u_c);
   if (implicit) step.viscous_power = viscous.walls + viscous.sides - viscous.dissipation;
   next.energy.add(budget_.of_step(

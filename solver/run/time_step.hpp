@@ -29,7 +29,8 @@ struct StepReport {
 
 class TimeStep {
  public:
-  TimeStep(const Grid& grid, const Scene& scene, const Boundary& boundary);
+  // Moves the gate of `boundary`.
+  TimeStep(const Grid& grid, const Scene& scene, Boundary& boundary);
 
   // Tries one step from `now` (ghosts filled) to `next`. `now` is never touched; `next` is meaningful, with
   // ghosts filled, only if the report says accepted.
@@ -61,6 +62,7 @@ class TimeStep {
   const Stopwatch& cost() const { return cost_; }
 
  private:
+  void move_gate(double time);
   void close(Attempt& step);
   void predict(Attempt& step);
   void shear_solid(Attempt& step);
@@ -77,7 +79,7 @@ class TimeStep {
 
   const Grid& grid_;
   const Scene& scene_;
-  const Boundary& boundary_;
+  Boundary& boundary_;
   Aperture aperture_;
   FaceInertia inertia_;
   InterphaseDrag drag_;

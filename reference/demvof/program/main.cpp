@@ -107,7 +107,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  granvof::keep_standard_streams_taken();
+  granvof::prepare_standard_streams();
   return demvof::exit_code_of([&] {
     const int code = parse_and_run(argc, argv);
     granvof::require_stdout_written();

@@ -94,13 +94,22 @@ TEST(BedSurface, GrainsAsHeavyAsTheFluidBearNothing) {
   for (int j = 0; j < rows; ++j) EXPECT_EQ(c.at(j), 0.0) << j;
 }
 
+// A bed that reaches the lid: nothing lies on its uppermost cell, as below a ceiling of obstacles. (The ghosts
+// beyond a lid hold what the cell holds, which lay on it.)
+TEST(BedSurface, NothingLiesOnTheCellUnderALid) {
+  const Column bed({packed, packed, packed, packed, packed, packed, packed, 0.3}, 100.0);
+  EXPECT_NEAR(bed.at(rows - 1), half_weight * 0.3, 1e-10);
+}
+
 TEST(BedSurface, PressureReachesFloorAndLid) {
   Column c({packed, packed, 0, 0, 0, 0, packed, packed}, 0.0);
   const double weight = half_weight * packed;
+  Field weights(c.s.grid);
+  set_half_weights(c.s.grid, c.s.scene, c.f_s, c.alpha, weights);
   const auto on_wall = [&](double inside, bool upper) {
     Field p(c.s.grid, inside);
     c.s.boundary.fill_scalar(p);
-    extend_to_walls(c.s.grid, c.s.scene, c.f_s, c.alpha, p);
+    extend_to_walls(c.s.grid, weights, p);
     const int j = upper ? rows - 1 : 0;
     return 0.5 * (p[c.s.grid.cells.index(2, j, 0)] + p[c.s.grid.cells.index(2, upper ? rows : -1, 0)]);
   };

@@ -32,8 +32,8 @@ TEST(Convection, ExactForLinearVelocities) {
     for (bool limited : {false, true}) {
       for (int d = 0; d < dim; ++d) {
         Field a(s.grid, 1e9);
-        const double taken =
-            convective_acceleration(unit_mass(s.grid), s.grid, v, d, s.grid.all_faces(d), limited, a);
+        const double taken = convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), v, d,
+                                                     s.grid.all_faces(d), limited, a);
         EXPECT_NEAR(taken, 0.0, 1e-10) << "upwind takes nothing from what is linear";
         s.each(s.grid.all_faces(d), [&](int i, int j, int k, std::ptrdiff_t c) {
           // on the outermost faces the carrier reaches beyond the box, which is filled too
@@ -68,7 +68,8 @@ double mean_error(int n, bool limited) {
   const Tank s(periodic_square(n));
   const FaceField u = s.faces({u0, u1, [](const Vec3&) { return 0.0; }});
   Field a(s.grid);
-  convective_acceleration(unit_mass(s.grid), s.grid, u, 0, s.grid.all_cells(), limited, a);
+  convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, 0, s.grid.all_cells(), limited,
+                          a);
   double sum = 0.0;
   s.each_cell([&](int i, int j, int m, std::ptrdiff_t c) {
     const Vec3 x = s.face(0, i, j, m);
@@ -102,8 +103,10 @@ TEST(Convection, MirroredFlowsAccelerateAlike) {
     for (FaceField* v : {&u, &m}) s.boundary.fill_velocity(*v, Phase::fluid);
     for (int d : {0, 1}) {
       Field a(s.grid), b(s.grid);
-      convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.inner_faces(d), limited, a);
-      convective_acceleration(unit_mass(s.grid), s.grid, m, d, s.grid.inner_faces(d), limited, b);
+      convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, d, s.grid.inner_faces(d),
+                              limited, a);
+      convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), m, d, s.grid.inner_faces(d),
+                              limited, b);
       s.each(s.grid.inner_faces(d), [&](int i, int j, int, std::ptrdiff_t c) {
         EXPECT_NEAR(b[c], d == 0 ? -a[at(n - i, j)] : a[at(n - 1 - i, j)], 1e-12) << limited << d;
       });
@@ -120,9 +123,12 @@ TEST(Convection, LimitedOnlyWhereTheFluidIsHeavy) {
   s.each_cell([&](int, int j, int, std::ptrdiff_t c) { mass[c] = j < surface ? 1000.0 : 1.0; });
   s.boundary.exchange(mass);
   for (int d = 0; d < 2; ++d) {
-    convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.all_cells(), false, first);
-    convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.all_cells(), true, second);
-    convective_acceleration_limited_in(mass, 31.6, s.grid, u, d, s.grid.all_cells(), both);
+    convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, d, s.grid.all_cells(), false,
+                            first);
+    convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, d, s.grid.all_cells(), true,
+                            second);
+    convective_acceleration_limited_in(mass, 31.6, s.grid, s.boundary.walls(), u, d, s.grid.all_cells(),
+                                       both);
     double apart = 0.0;
     s.each_cell([&](int, int j, int, std::ptrdiff_t c) {
       EXPECT_EQ(both[c], j < surface ? second[c] : first[c]) << d << " row " << j;
@@ -145,7 +151,8 @@ TEST(Convection, NoNewExtremumAtAStep) {
       const double dt = 0.4 * s.grid.h[1];
       const double before = s.total(u[0]);
       for (int step = 0; step < 60; ++step) {
-        convective_acceleration(unit_mass(s.grid), s.grid, u, 0, s.grid.all_cells(), limited, a);
+        convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, 0, s.grid.all_cells(),
+                                limited, a);
         s.each_cell([&](int, int, int, std::ptrdiff_t c) { u[0][c] += dt * a[c]; });
         s.boundary.exchange(u[0]);
         ASSERT_GE(s.smallest(u[0]), -1e-14);
@@ -174,7 +181,8 @@ TEST(Convection, BoundedWhereGrainsDoNotCount) {
       double beyond = 0.0;
       for (int d = 0; d < dim; ++d) {
         Field free(s.grid), bounded(s.grid);
-        convective_acceleration(unit_mass(s.grid), s.grid, u, d, s.grid.all_cells(), limited, free);
+        convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, d, s.grid.all_cells(),
+                                limited, free);
         bounded = free;
         bound_convection(s.grid, u, d, s.grid.all_cells(), dt, fraction, least, bounded);
         const double lowest = s.smallest(u[d]), highest = s.largest(u[d]);
@@ -198,7 +206,8 @@ TEST(Convection, BoundLeavesShortStepsAlone) {
   Tank s(periodic_square(8));
   const FaceField u = s.random_faces(-1.0, 1.0);
   Field free(s.grid), bounded(s.grid);
-  convective_acceleration(unit_mass(s.grid), s.grid, u, 0, s.grid.all_cells(), false, free);
+  convective_acceleration(unit_mass(s.grid), s.grid, s.boundary.walls(), u, 0, s.grid.all_cells(), false,
+                          free);
   bounded = free;
   bound_convection(s.grid, u, 0, s.grid.all_cells(), 0.2 * s.grid.h[0], Field(s.grid), 1e-3, bounded);
   s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_EQ(bounded[c], free[c]); });

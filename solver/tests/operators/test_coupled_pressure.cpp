@@ -35,7 +35,7 @@ struct Step {
     s.boundary.fill_scalar(alpha, 0.0);
     inertia.update(s.grid, s.scene, f_s, alpha);
     InterphaseDrag drag(s.grid, s.scene);
-    drag.update(s.boundary, state, inertia, rheology.part_cells);
+    drag.update(s.boundary, state, inertia, rheology);
     beta = drag.beta();
     for (int d = 0; d < s.grid.dim; ++d)  // where there are no grains both move as one from the start
       s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {

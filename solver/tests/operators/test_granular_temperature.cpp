@@ -46,7 +46,7 @@ struct Gas {
     return scene;
   }
   void deform(double shear, double stretch) {
-    strain.update(s.grid,
+    strain.update(s.grid, s.boundary.walls(),
                   s.faces({[=](const Vec3& x) { return stretch * x[0] + shear * x[1]; },
                            [=](const Vec3& x) { return stretch * x[1]; }, [](const Vec3&) { return 0.0; }}));
   }
@@ -276,7 +276,7 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       FaceField u = s.random_faces(-30.0, 30.0);
       s.boundary.fill_velocity(u, Phase::solid);
       StrainRate strain(s.grid);
-      strain.update(s.grid, u);
+      strain.update(s.grid, s.boundary.walls(), u);
       GranularTemperature temperature(s.grid, s.scene, s.boundary);
       const Field beta = s.random_cells(0.0, 1e5);
       const Field production = production_of(s, 1e-3, now, beta, strain, temperature, rheology);

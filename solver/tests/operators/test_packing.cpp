@@ -20,8 +20,9 @@ double after(double f_s, double packing, double a, double b, double c, const Sce
              double pressure = 0.0) {
   const Tank s(scene);
   StrainRate strain(s.grid);
-  strain.update(s.grid, s.faces({[=](const Vec3& x) { return a * x[0] + b * x[1]; },
-                                 [=](const Vec3& x) { return c * x[1]; }, [](const Vec3&) { return 0.0; }}));
+  strain.update(s.grid, s.boundary.walls(),
+                s.faces({[=](const Vec3& x) { return a * x[0] + b * x[1]; },
+                         [=](const Vec3& x) { return c * x[1]; }, [](const Vec3&) { return 0.0; }}));
   const Field f(s.grid, f_s);
   Field p(s.grid, packing);
   Rheology rheology(s.grid);

@@ -185,7 +185,7 @@ TEST(Obstacles, AreHalfACellFromTheVelocityBeside) {
   u[0][at(2, 1)] = 0.5;
   u[0][at(1, 1)] = 0.5;
   StrainRate strain(s.grid);
-  strain.update(s.grid, u);
+  strain.update(s.grid, s.boundary.walls(), u);
   EXPECT_NEAR(strain.shear[0][at(2, 1)], 2.0 * 0.5 / 0.1, 1e-12);
   EXPECT_NEAR(strain.shear[0][at(1, 1)], 0.5 / 0.1, 1e-12);  // at the corner: the whole cell
 }

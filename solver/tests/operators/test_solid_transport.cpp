@@ -21,7 +21,7 @@ FaceField flux_of(const Tank& s, SolidFlux scheme, const Field& f, const FaceFie
   const SolidFractionFlux fraction(scheme);
   FaceField flux(s.grid);
   for (int d = 0; d < s.grid.dim; ++d) {
-    fraction.face_values(s.grid, f, u[d], d, dt, s.grid.inner_faces(d), flux[d]);
+    fraction.face_values(s.grid, s.boundary.walls(), f, u[d], d, dt, s.grid.inner_faces(d), flux[d]);
     s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) { flux[d][c] *= u[d][c]; });
     s.boundary.exchange(flux[d]);
   }
@@ -58,7 +58,7 @@ double carried_once(int n, SolidFlux scheme, double courant, double speed, bool 
   const int steps = static_cast<int>(std::lround(n / courant));
   const SolidFractionFlux fraction(scheme);
   for (int i = 0; i < steps; ++i) {
-    fraction.face_values(s.grid, f, u[0], 0, dt, s.grid.inner_faces(0), flux[0]);
+    fraction.face_values(s.grid, s.boundary.walls(), f, u[0], 0, dt, s.grid.inner_faces(0), flux[0]);
     s.each_cell([&](int, int, int, std::ptrdiff_t c) { flux[0][c] *= speed; });
     s.boundary.exchange(flux[0]);
     transport_solid(s.grid, dt, f, flux, f_new);

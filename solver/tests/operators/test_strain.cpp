@@ -21,7 +21,7 @@ FaceField linear_velocity(const Tank& s, const Gradient& g) {
 void expect_exact(int dim, const Gradient& g) {
   const Tank s(unit_scene(dim, 4));
   StrainRate strain(s.grid);
-  strain.update(s.grid, linear_velocity(s, g));
+  strain.update(s.grid, s.boundary.walls(), linear_velocity(s, g));
   double squared = 0.0, divergence = 0.0, normal = 0.0;
   for (int d = 0; d < dim; ++d) {
     divergence += g[d][d];
@@ -72,7 +72,7 @@ TEST(StrainRate, AnObstacleOverTheEndsOfAPeriodIsAFloor) {
   FaceField u = s.faces({above, rest, rest});
   s.boundary.fill_velocity(u, Phase::fluid);
   StrainRate strain(s.grid);
-  strain.update(s.grid, u);
+  strain.update(s.grid, s.boundary.walls(), u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(strain.squared[s.grid.cells.index(i, 1, 0)], 0.5, 1e-12) << i;
 }
 
@@ -81,7 +81,7 @@ TEST(StrainRate, RotationShearsOnlyAtNoSlipWalls) {
   FaceField u = linear_velocity(s, {{{0, -1, 0}, {1, 0, 0}, {0, 0, 0}}});
   s.boundary.fill_velocity(u, Phase::fluid);
   StrainRate strain(s.grid);
-  strain.update(s.grid, u);
+  strain.update(s.grid, s.boundary.walls(), u);
   s.each_cell([&](int i, int j, int, std::ptrdiff_t c) {
     const bool inside = i > 0 && i < 5 && j > 0 && j < 5;
     if (inside) {

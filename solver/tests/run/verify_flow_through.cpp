@@ -218,6 +218,49 @@ preset = "paper"
   }
 }
 
+// The same through all of the bed and its surface, which lies within a cell, by its faces one after the
+// other: what rests there drags no more than its grains do, and hangs in no fluid.
+TEST(Bed, TakesThePressureOfErgunAtItsSurfaceToo) {
+  for (const char* preset : {"advised", "sourced"}) {
+    Simulation run(test::small_tank("ergun", "size = [0.01, 0.08]", 0.08, R"([walls]
+all = "slip"
+bottom = { inflow = 0.005 }
+top = "open"
+[bed]
+length = 0.01
+height = 0.05
+solid_fraction = 0.57
+)",
+                                    {std::string("model.preset=") + preset, "solid.diameter=2e-3"}));
+    run.until(1.0);
+    ASSERT_FALSE(HasFatalFailure()) << preset;
+    const double h = run.grid.h[1], u = 0.005, g = run.scene.gravity;
+    double drop = 0.0, theory = 0.0;
+    int in_part = 0;
+    for (int j = 1; j < 14; ++j) {
+      const std::ptrdiff_t c = run.cell(1, j), below = run.cell(1, j - 1);
+      const double f = 0.5 * (run.now.f_s[c] + run.now.f_s[below]);
+      const double of_face = run.now.p_c[below] - run.now.p_c[c] - 1000.0 * g * h;
+      double of_law = 0.0;
+      run.scene.model.drag_law.with([&](auto of) {
+        const double slip = u / (1.0 - f);
+        of_law = closures::drag_coefficient(of, f, 1.0, slip, run.scene.gas, run.scene.liquid,
+                                            run.scene.solid.diameter) *
+                 slip / (1.0 - f) * h;
+      });
+      // at the surface the flux, and the hindrance of second-order ones, take the packed side's fraction, the
+      // law above that of the mean: up to 1 Pa, a fortieth of the whole
+      EXPECT_NEAR(of_face, of_law, f > 0.57 ? 0.03 * of_law : 0.2 * of_law + 1.0) << preset << ", row " << j;
+      drop += of_face;
+      theory += of_law;
+      in_part += run.now.f_s[c] > 0.01 && run.now.f_s[c] < 0.56;
+    }
+    EXPECT_NEAR(drop, theory, 0.05 * theory) << preset;
+    EXPECT_GT(theory, 30.0) << preset;
+    EXPECT_EQ(in_part, 1) << preset;
+  }
+}
+
 // Grains that come in and go out are counted, and carry their energy.
 TEST(Grains, ComeInAndLeave) {
   Simulation run(channel({"walls.left.inflow_solid_fraction=0.1", "tank.gravity=0", "liquid.level=0.04",
