@@ -129,6 +129,14 @@ TEST(DepositShape, TriangleAndTrapezoidHaveTheirExactShares) {
   EXPECT_NEAR(trapezoid->length, 0.97, 1e-3);
 }
 
+// Against a wall the profile goes on over the last half column: all four columns, or three and what rises to
+// the first.
+TEST(DepositShape, GoesOnToTheWallsOfTheTank) {
+  EXPECT_NEAR(deposit_shape({{0.5, 1.5, 2.5, 3.5}, {1.0, 1.0, 1.0, 1.0}})->length, 4.0, 1e-12);
+  EXPECT_NEAR(deposit_shape({{0.5, 1.5, 2.5, 3.5}, {0.0, 1.0, 1.0, 1.0}})->length, 3.45, 1e-12);
+  EXPECT_NEAR(deposit_shape({{0.5, 1.5, 2.5, 3.5}, {1.0, 1.0, 1.0, 0.0}})->length, 3.45, 1e-12);
+}
+
 TEST(DepositShape, OfAnEmptyBedIsUndefined) {
   EXPECT_FALSE(deposit_shape({{0.5, 1.5}, {0.0, 0.0}}));
   EXPECT_FALSE(deposit_shape({}));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/lay/lay.hpp"
+#include "solver/output/fields_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/cases_directory.hpp"
@@ -87,6 +88,36 @@ TEST_F(Lay, WhatIsTooLargeToCompareIsRefused) {
                            "time [s],p_base [Pa]\n0,1e200\n1e200,1e200\n"}) {
     const compare::Run run = theirs(text);
     EXPECT_THROW(lay(run, run), std::invalid_argument) << text;
+  }
+}
+
+// Fields of a box that is a hundredth longer than the tank are those of another scene; of the tank's own they
+// are read.
+TEST_F(Lay, FieldsOfAnotherBoxAreRefused) {
+  const auto read = [&](double longer) {
+    Scene coarse = scene_;
+    coarse.grid.cells = {4, 2, 1};
+    coarse.grid.spacing = {scene_.tank[0] * longer / 4, scene_.tank[1] / 2, scene_.tank[2]};
+    CellFields fields;
+    fields.cells = coarse.grid.cells;
+    fields.spacing = coarse.grid.spacing;
+    for (auto* values : {&fields.f_s, &fields.alpha, &fields.p_c, &fields.p_s, &fields.theta, &fields.phi,
+                         &fields.u_s[0], &fields.u_s[1], &fields.u_c[0], &fields.u_c[1]})
+      values->assign(8, 0.25);
+    FieldsFile file = FieldsFile::create(directory_.path(), coarse);
+    file.append(fields);
+    file.bring_up_to_date();
+    return read_their_fields(directory_.path() / "fields.h5", scene_);
+  };
+  EXPECT_EQ(read(1.0).series.rows.size(), 1u);
+  try {
+    read(1.01);
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {  // by the file and the scene that they name
+    EXPECT_NE(
+        std::string(error.what()).find("fields.h5: the box is 0.404 m in direction 0, the tank of s1 0.4 m"),
+        std::string::npos)
+        << error.what();
   }
 }
 
