@@ -9,6 +9,7 @@ from pathlib import Path
 from faults_tried.runs import SmallRun, crashed, same_content
 
 SETTLED = 0.25  # share of a long run after which its memory has its size
+ENDS = 0.98  # share after which it may be ending: joining the fields takes memory once, and a busy machine makes that last
 GROWTH = 1.02  # of the memory beyond that: what the allocator may keep, not what a leak of one byte a step would take
 
 
@@ -102,5 +103,5 @@ def grown(seen):
         return "too short to be judged"
     begun, ended = seen[0][0], seen[-1][0]
     early = max(kilobytes for at, kilobytes in seen if at <= begun + SETTLED * (ended - begun))
-    late = max(kilobytes for _, kilobytes in seen)
+    late = max(kilobytes for at, kilobytes in seen if at <= begun + ENDS * (ended - begun))
     return f"{early} kB after {SETTLED:g} of the run, {late} kB at most" if late > GROWTH * early else ""

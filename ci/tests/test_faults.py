@@ -178,6 +178,7 @@ def test_memory_that_grows_is_found_out():
     level = [(0.1 * n, 30000 if n > 5 else 20000) for n in range(100)]
     assert scarce.grown(level) == ""
     assert scarce.grown([(at, kilobytes + 20 * number) for number, (at, kilobytes) in enumerate(level)])
+    assert scarce.grown(level[:-1] + [(level[-1][0], 31000)]) == ""  # the end is no step
     assert scarce.grown(level[:3]) == "too short to be judged"
 
 

@@ -45,7 +45,8 @@ def ended(main, *arguments):
         why = not_printable() if error.filename is None else None
         if why is None:
             raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still to be written goes nowhere
+        with open(os.devnull, "w") as nowhere:  # for what is still to be written
+            os.dup2(nowhere.fileno(), sys.stdout.fileno())
         if why.errno == errno.EPIPE:
             return 128 + signal.SIGPIPE
         complain(f"{Path(sys.argv[0]).name}: cannot write to standard output: {why.strerror}")
