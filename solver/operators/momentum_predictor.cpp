@@ -4,6 +4,7 @@
 
 #include "solver/operators/convection.hpp"
 #include "solver/scene/gravity.hpp"
+#include "solver/scene/parts.hpp"
 
 namespace granvof {
 
@@ -18,7 +19,7 @@ MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const
 
 void MomentumPredictor::convect_fluid(const State& now, const FaceInertia& inertia, int d) {
   const Range faces = grid_.fluid_faces(d);
-  if (limited_ && !scene_.liquid_boxes.empty()) {
+  if (limited_ && has_liquid(scene_)) {
     const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
     upwind_power_ += grid_.cell_volume *
                      convective_acceleration_limited_in(inertia.fluid[d], between_gas_and_liquid, grid_,

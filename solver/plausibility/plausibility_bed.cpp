@@ -5,6 +5,7 @@
 
 #include "solver/closures/elastic_energy.hpp"
 #include "solver/plausibility/plausibility_rows.hpp"
+#include "solver/scene/parts.hpp"
 #include "solver/scene/scales.hpp"
 
 namespace granvof::plausible {
@@ -62,13 +63,8 @@ double face_of_gate(const Scene& s) {
 std::vector<Row> bed_rows() {
   return {
       missing(
-          "bed",
-          [](const Scene& s) {
-            return !s.bed && s.solid != Solid{} && std::ranges::none_of(s.sides, [](const Side& side) {
-              return side.kind == SideKind::inlet && side.inflow.solid_fraction > 0.0;
-            });
-          },
-          "a table [bed]", "the case has a [solid], but no grains in the tank, and none come in"),
+          "bed", [](const Scene& s) { return !has_grains(s) && s.solid != Solid{}; }, "a table [bed]",
+          "the case has a [solid], but no grains in the tank, and none come in"),
       row(
           "bed.height", "m", [](const Scene& s) { return if_bed(s, bed_height(s)); },
           [](const Scene& s) {

@@ -243,7 +243,7 @@ TEST_F(Program, StopsAtItsWallClockLimitWithAnExitCodeOfItsOwn) {
 
 TEST_F(Program, AFileThatMayNotGrowIsAnErrorLikeAFullDisk) {
   const Outcome outcome =
-      granvof("run " + shipped("canary-dry") + dense + " --out out", "ulimit -f 30 &&");  // of 512 bytes
+      granvof("run " + shipped("canary-dry") + dense + " --out out", "ulimit -f 36 &&");  // of 512 bytes
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("there is no checkpoint to go on from"), std::string::npos) << outcome.err;
