@@ -97,6 +97,13 @@ def test_results_that_moved_are_named(root, rows, capsys, change, code):
     assert ("s1.run_out@5.DEM: kept 1.31" in capsys.readouterr().out) == bool(code)
 
 
+@pytest.mark.parametrize("unexpected, moved", [(False, 0), (True, 1)])
+def test_what_was_left_out_by_name_has_not_moved(make_row, unexpected, moved):
+    kept = kept_results.kept_of(verified([make_row(id="canary", verdict="agrees", value=0.0)]))
+    now = verified([make_row(id="canary", verdict="not run", value=None, unexpected=unexpected)])
+    assert len(kept_results.moved(kept, now)) == moved
+
+
 def test_a_shorter_comparison_leaves_what_was_not_due(root, rows):
     night = rows[0] | {"id": "night", "scene": "s2", "frequency": "nightly"}
     keep(root, verified([*rows, night], "nightly"))
