@@ -1,6 +1,5 @@
 """Scripts that start what takes long, ended by a signal: what they started ends too."""
 
-import ast
 import os
 import signal
 import subprocess
@@ -10,7 +9,6 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-NOT_TOLD = ("ci/mutation/", "ci/tidy", "ci/fuzz", "ci/manuals")  # what they start is ended as a group, or is a build
 
 # What each starts first, and under which name; the stand-in answers what it is asked before.
 STARTED = {
@@ -60,24 +58,3 @@ def test_what_was_started_ends_with_who_started_it(tmp_path, shell, script, name
     if not gone:
         os.kill(pid, signal.SIGKILL)
     assert gone
-
-
-def scripts():
-    for folder in ("compare", "reference", "ci"):
-        for path in sorted((ROOT / folder).rglob("*")):
-            name = str(path.relative_to(ROOT))
-            if path.is_file() and path.suffix in ("", ".py") and "/tests/" not in name and not name.startswith(NOT_TOLD):
-                text = path.read_text(encoding="utf-8", errors="replace")
-                if path.suffix == ".py" or text.startswith("#!/usr/bin/python3"):
-                    yield name, ast.parse(text)
-
-
-def starts(call):
-    return isinstance(call.func, ast.Attribute) and call.func.attr in ("run", "Popen") and getattr(call.func.value, "id", "") == "subprocess"
-
-
-def test_every_script_sees_to_the_end_of_what_it_starts():
-    """Whatever is neither a question whose answer is waited for nor fed with all it reads is told when its parent ends: preexec_fn=ends_with_parent."""
-    untold = [f"{name}:{call.lineno}" for name, tree in scripts() for call in ast.walk(tree) if isinstance(call, ast.Call) and starts(call)
-              if not {"preexec_fn", "capture_output", "input"} & {word.arg for word in call.keywords}]
-    assert untold == []

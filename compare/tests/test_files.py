@@ -1,6 +1,5 @@
 """What is no file is not opened: by no reader of ours, and not through a link inside an HDF5 file either."""
 
-import ast
 import os
 import signal
 import stat
@@ -173,53 +172,3 @@ def test_nothing_else_than_a_file_is_replaced(tmp_path, make):
     with pytest.raises(OSError):
         granvof_files.write_json(path, {})
     assert list(tmp_path.iterdir()) == [path]
-
-
-ROOT = Path(__file__).resolve().parent.parent.parent
-OF_THE_TREE = ("ci/mutation", "ci/mutate", "ci/tidy", "ci/faults_tried", "ci/night/guard.py",
-               "compare/report/trust_table.py")  # they read sources and /proc, and what they made
-READS = {"open", "read_text", "read_bytes", "File", "connect"}  # of pathlib, of h5py and sqlite3
-
-
-def scripts():
-    for folder in ("solver/python", "compare", "reference", "ci"):
-        for path in sorted((ROOT / folder).rglob("*")):
-            name = str(path.relative_to(ROOT))
-            if path.is_file() and path.suffix in ("", ".py") and "/tests/" not in name and not name.startswith(OF_THE_TREE):
-                text = path.read_text(encoding="utf-8", errors="replace")
-                if path.suffix == ".py" or text.startswith("#!/usr/bin/python3"):
-                    yield name, ast.parse(text)
-
-
-def is_for_writing(call):
-    modes = [word.value for word in (*call.args[:2], *(keyword.value for keyword in call.keywords)) if isinstance(word, ast.Constant)]
-    return any(isinstance(mode, str) and mode and mode[0] in "wax" and len(mode) <= 3 for mode in modes)
-
-
-def is_asked(call):
-    """Whether what is opened went through required(), or is the kernel's."""
-    opened = [call.func] + call.args[:1]
-    words = {getattr(part.func, "id", "") for whole in opened for part in ast.walk(whole) if isinstance(part, ast.Call)}
-    texts = [part.value for whole in opened for part in ast.walk(whole) if isinstance(part, ast.Constant) and isinstance(part.value, str)]
-    return "required" in words or any(text.startswith("/proc") for text in texts)
-
-
-def is_a_read(call):
-    if isinstance(call.func, ast.Name):
-        return call.func.id == "open"
-    return isinstance(call.func, ast.Attribute) and call.func.attr in READS and not is_for_writing(call)
-
-
-def test_every_script_asks_before_it_opens():
-    """A reader that is added must not wait for a pipe either: open(), Path.open(), read_text() and their like take required(path)."""
-    unasked = [f"{name}:{call.lineno}" for name, tree in scripts() for call in ast.walk(tree)
-               if isinstance(call, ast.Call) and is_a_read(call) and not is_for_writing(call) and not is_asked(call)]
-    assert unasked == []
-
-
-def test_nobody_parses_without_asking_how_deep():
-    """A reader that is added must not fall over depth either: json_in, json_of, toml_in and toml_of ask."""
-    parsed = [f"{name}:{call.lineno}" for name, tree in scripts() for call in ast.walk(tree)
-              if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr in ("load", "loads")
-              and getattr(call.func.value, "id", "") in ("json", "tomllib") and name != "solver/python/granvof_files.py"]
-    assert parsed == []
