@@ -31,6 +31,7 @@ ABOUT = {
     "solver/closures/granular_temperature": "what of (7) is solved, a list",
     "solver/closures/radial_distribution": "g0, a list",
     "solver/closures/kinetic_transport": "what flying grains carry, a list",
+    "solver/closures/slope_limiter": "fluxes of grains, a list",
     "solver/operators": "one term, one file",
     "solver/state": "fields, energy terms",
     "solver/output": "run directory, scalars",
@@ -57,7 +58,8 @@ ABOUT = {
 MAY_INCLUDE = {
     "solver/scene": ("solver/scene", "solver/model", "solver/closures/drag", "solver/closures/friction",
                      "solver/closures/radial_distribution", "solver/closures/kinetic_transport", "solver/closures/packing",
-                     "solver/closures/critical_packing", "solver/closures/granular_temperature"),  # what its keys choose from
+                     "solver/closures/critical_packing", "solver/closures/granular_temperature",
+                     "solver/closures/slope_limiter"),  # what its keys choose from
     "solver/plausibility": ("solver/scene", "solver/model", "solver/closures"),  # pure functions, in headers
     "solver/output": ("solver/scene", "solver/plausibility"),
     "solver": ("solver",),

@@ -117,7 +117,8 @@ def test_a_further_choice_of_each_list_is_a_header_and_a_line(tmp_path):
         text = text.replace(line, line.replace(choices, f"{choices}, {first}Too")).replace("\nnamespace granvof::closures {", mine, 1)
         (folder / "laws.hpp").write_text(text, encoding="utf-8")
     # Whoever reads a list: the keys, and the operators.
-    for reader in ("scene/keys_of_model.cpp", "plausibility/plausibility_idle.cpp", "run/initial_state.cpp", "operators/packing.cpp",
+    for reader in ("scene/keys_of_model.cpp", "scene/keys.cpp", "operators/momentum_predictor.cpp", "operators/coupled_pressure.cpp",
+                   "plausibility/plausibility_idle.cpp", "run/initial_state.cpp", "operators/packing.cpp",
                    "operators/friction_law.cpp", "operators/granular_temperature.cpp", "operators/interphase_drag.cpp"):
         built = call("g++", "-std=c++20", "-Wall", "-Wextra", "-Werror", "-fopenmp", "-fsyntax-only", f"-I{tmp_path}", f"-I{ROOT}",
                      ROOT / "solver" / reader)

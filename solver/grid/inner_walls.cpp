@@ -5,6 +5,8 @@
 namespace granvof {
 namespace {
 
+constexpr int furthest_sight = 3;  // in cells, from a wall to what may see it
+
 // All places whose lower neighbours are in memory too.
 Range all_but_the_first(const Layout& l) {
   Range r;
@@ -27,7 +29,7 @@ InnerWalls::InnerWalls(const Grid& grid) : grid_(grid), solid_(grid.obstacles.so
       closed_[d][static_cast<std::size_t>(c)] = is_solid(c) || is_solid(c - l.stride[d]) ? 1 : 0;
     });
   }
-  list();
+  list(all_but_the_first(l));
 }
 
 void InnerWalls::shut_gate(int face, int open_rows) {
@@ -47,7 +49,12 @@ void InnerWalls::shut_gate(int face, int open_rows) {
       closed_[0][static_cast<std::size_t>(c)] = stands || is_solid(c) || is_solid(c - l.stride[0]) ? 1 : 0;
     });
   }
-  list();
+  Range near = all;
+  if (grid_.obstacles.none() && !l.periodic[0]) {
+    near.lower[0] = face - l.first[0] - furthest_sight;
+    near.upper[0] = face - l.first[0] + furthest_sight + 1;
+  }
+  list(near);
 }
 
 bool InnerWalls::wall_between(std::ptrdiff_t c, int d, int e, bool up) const {
@@ -84,34 +91,34 @@ bool InnerWalls::beside_wall(std::ptrdiff_t c) const {
   return found;
 }
 
-void InnerWalls::list() {
+void InnerWalls::list(const Range& near) {
   const Layout& l = grid_.cells;
   for (auto& faces : faces_) faces.clear();
   for (auto& faces : closed_faces_) faces.clear();
   for (auto& edges : edges_) edges.clear();
   cells_.clear();
   for (int d = 0; d < grid_.dim; ++d) {
-    for_each_place(grid_.all_faces(d), [&](const std::array<int, 3>& at) {
+    for_each_place(common(grid_.all_faces(d), near), [&](const std::array<int, 3>& at) {
       const std::ptrdiff_t c = l.index(at);
       if (is_closed(d, c))
         closed_faces_[d].push_back({at, c});
       else if (in_sight(c, d))
         faces_[d].push_back({at, c});
     });
-    for (int e = d + 1; e < grid_.dim; ++e) list_edges(d, e);
+    for (int e = d + 1; e < grid_.dim; ++e) list_edges(d, e, near);
   }
-  for_each_place(grid_.all_cells(), [&](const std::array<int, 3>& at) {
+  for_each_place(common(grid_.all_cells(), near), [&](const std::array<int, 3>& at) {
     const std::ptrdiff_t c = l.index(at);
     if (!is_solid(c) && beside_wall(c)) cells_.push_back({at, c});
   });
 }
 
 // Of obstacles those along flat surfaces; of the gate those between two of its faces.
-void InnerWalls::list_edges(int d, int e) {
+void InnerWalls::list_edges(int d, int e, const Range& near) {
   for (const Obstacles::Edge& edge : grid_.obstacles.edges(d + e - 1))
     if (edge.flat) edges_[d + e - 1].push_back({{edge.place, edge.at}, 2.0});
   const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);
-  for_each_place(grid_.edges(d, e), [&](const std::array<int, 3>& at) {
+  for_each_place(common(grid_.edges(d, e), near), [&](const std::array<int, 3>& at) {
     const std::ptrdiff_t c = grid_.cells.index(at);
     const bool solid = is_solid(c) || is_solid(c - s) || is_solid(c - t) || is_solid(c - s - t);
     const bool upright = is_closed(d, c) && is_closed(d, c - t),

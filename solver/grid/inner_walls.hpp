@@ -61,8 +61,9 @@ class InnerWalls {
   double share_across(std::ptrdiff_t c, int d, int e, bool up) const;
   bool in_sight(std::ptrdiff_t c, int d) const;
   bool beside_wall(std::ptrdiff_t c) const;
-  void list();
-  void list_edges(int d, int e);
+  // Of the places in `near`, outside of which no wall is in sight.
+  void list(const Range& near);
+  void list_edges(int d, int e, const Range& near);
 
   const Grid& grid_;
   const char* solid_;  // cells of obstacles, null without

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "solver/operators/limiter.hpp"
+#include "solver/closures/slope_limiter/van_leer.hpp"
 
 namespace granvof {
 namespace {
+
+using closures::LimiterVanLeer;
 
 constexpr double largest_courant = 0.5;  // of an explicit limited difference
 
@@ -24,9 +26,9 @@ constexpr auto limited_difference = [](const double* v, std::ptrdiff_t c, std::p
                                        std::ptrdiff_t /*face*/) {
   const double back = v[c] - v[c - s], ahead = v[c + s] - v[c];
   const double before = v[c - s] - v[c - 2 * s], beyond = v[c + 2 * s] - v[c + s];
-  const double middle = 0.5 * van_leer(back, ahead);
-  return std::max(w, 0.0) * (back + middle - 0.5 * van_leer(before, back)) +
-         std::min(w, 0.0) * (ahead + middle - 0.5 * van_leer(ahead, beyond));
+  const double middle = 0.5 * LimiterVanLeer::slope(back, ahead);
+  return std::max(w, 0.0) * (back + middle - 0.5 * LimiterVanLeer::slope(before, back)) +
+         std::min(w, 0.0) * (ahead + middle - 0.5 * LimiterVanLeer::slope(ahead, beyond));
 };
 
 // A component and its carrier along one direction.

@@ -22,6 +22,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       boundary_(boundary),
       velocity_(scales_of(scene).velocity),
       strain_(grid),
+      strain_of_solve_(grid),
       mu_(grid),
       lambda_(grid),
       divergence_(grid),

@@ -56,6 +56,12 @@ class Friction {
   // many steps.
   bool slips_otherwise(const State& next) const;
 
+  // Of what friction dissipates at u_s of `next` (ghosts filled), the share [-] by which the viscosities of
+  // the last solve, those of u_strain, miss it. A bed that begins to yield is held by those of its rest: its
+  // speed grows by the ratio of what drives to what holds in each solve, and the longer the step, the later
+  // it flows.
+  double yields_otherwise(const Rheology& rheology, const State& next);
+
   // Power [W] of the stress of the last solve, at the velocity u_strain of `next` that it was solved
   // for;
   // `kinetic` [W/m3]: what the kinetic viscosity dissipates in each cell, an edge's dissipation shared by its
@@ -72,7 +78,9 @@ class Friction {
 
  private:
   void fit_box(const FaceInertia& inertia);
-  void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain);
+  // The strain of u that shears grains past each other, on the box; one ghost layer of u must be filled.
+  void strain_of_contacts(const Rheology& rheology, const FaceField& u, StrainRate& strain);
+  void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u, StrainRate& strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
   linear::Report solve_by(const SolidBalance& balance, const FaceInertia& inertia, const Aperture& aperture,
                           const Rheology& rheology, const FaceField& u_strain, FaceField& u_s);
@@ -105,17 +113,17 @@ class Friction {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
-  double velocity_;                  // of the scene [m/s], see scales.hpp
-  Range box_{{0, 0, 0}, {0, 0, 0}};  // cells the fields below are kept on; outside they hold no stress
-  std::array<Layout, 3> faces_;      // of the box, by direction
-  StrainRate strain_;
-  Field mu_, lambda_;                  // at cell centres [Pa s]
-  std::array<Field, 3> mu_edge_;       // on edges [Pa s], by plane_index()
-  std::array<Field, 3> shear_;         // shear stress on edges [Pa]
-  std::array<Field, 3> kinetic_edge_;  // with bumpy or Coulomb walls, the kinetic part of mu_edge_ [Pa s]
-  std::array<Field, 3> tilting_;       // with part-cells, on the edges of vertical planes [-]
-  Field mu_vertical_;                  // with part-cells, of the vertical normal strain [Pa s]
-  FaceField normal_stress_;            // of contacts, beside Coulomb walls [Pa]; empty without
+  double velocity_;                      // of the scene [m/s], see scales.hpp
+  Range box_{{0, 0, 0}, {0, 0, 0}};      // cells the fields below are kept on; outside they hold no stress
+  std::array<Layout, 3> faces_;          // of the box, by direction
+  StrainRate strain_, strain_of_solve_;  // that of the viscosities; of what they gave
+  Field mu_, lambda_;                    // at cell centres [Pa s]
+  std::array<Field, 3> mu_edge_;         // on edges [Pa s], by plane_index()
+  std::array<Field, 3> shear_;           // shear stress on edges [Pa]
+  std::array<Field, 3> kinetic_edge_;    // with bumpy or Coulomb walls, the kinetic part of mu_edge_ [Pa s]
+  std::array<Field, 3> tilting_;         // with part-cells, on the edges of vertical planes [-]
+  Field mu_vertical_;                    // with part-cells, of the vertical normal strain [Pa s]
+  FaceField normal_stress_;              // of contacts, beside Coulomb walls [Pa]; empty without
   Field divergence_;
   FaceField marked_;  // 1 where u_s is unknown
   std::optional<linear::ConjugateGradient> solver_;

@@ -23,23 +23,29 @@ struct Contacts {
 
 }  // namespace
 
+void Friction::strain_of_contacts(const Rheology& rheology, const FaceField& u, StrainRate& strain) {
+  strain.update(grid_, boundary_.walls(), u, box_);
+  if (scene_.numerics.bed_surface == BedSurface::part_cells) free_faces_of_part_cells(rheology, u, strain);
+}
+
 // Grains in a part of a cell rest on what lies below and rub along it; above they are free. What falls on
 // them, or hangs over the edge of their cell, moves that free face at a speed that is none of theirs: taken
 // for strain of the bed it outruns all creep, (17) yields to it, and the surface runs down the slope for
 // ever. So neither their normal strain nor the tilt of an edge by a free face shears the grains, and no
 // stress of such an edge acts on the face.
-void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceField& u_strain) {
+void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceField& velocity,
+                                        StrainRate& strain) {
   const double* side = rheology.free_side.data();
   const std::ptrdiff_t up = grid_.stride(vertical);
   const auto free_face = [=](std::ptrdiff_t c) { return side[c - up] > 0.0 || side[c] < 0.0; };
-  double *normal = strain_.normal_squared.data(), *all = strain_.squared.data();
+  double *normal = strain.normal_squared.data(), *all = strain.squared.data();
   for (int h = 0; h < grid_.dim; h += 2) {
     const int d = std::min(h, vertical), e = std::max(h, vertical), plane = plane_index(d, e);
     const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e), along = grid_.stride(h);
     const double inv_h = 1.0 / grid_.h[vertical];
-    const double* u = u_strain[h].data();
-    double *share = tilting_[plane].data(), *g = strain_.shear[plane].data(),
-           *squared = strain_.plane_squared[plane].data();
+    const double* u = velocity[h].data();
+    double *share = tilting_[plane].data(), *g = strain.shear[plane].data(),
+           *squared = strain.plane_squared[plane].data();
     for_each(grid_.cells, Grid::edges(box_, d, e), [=](std::ptrdiff_t c) {
       share[c] = free_face(c) || free_face(c - along) ? 0.0 : 1.0;
       if (share[c] == 0.0) g[c] = (u[c] - u[c - up]) * inv_h;
@@ -53,7 +59,7 @@ void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceFiel
       all[c] = std::max(all[c] + squared[c] - before, 0.0);
     });
   }
-  const double* v = u_strain[vertical].data();
+  const double* v = velocity[vertical].data();
   const double inv_h = 1.0 / grid_.h[vertical];
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
     const double fall = (v[c + up] - v[c]) * inv_h;
@@ -62,8 +68,7 @@ void Friction::free_faces_of_part_cells(const Rheology& rheology, const FaceFiel
 }
 
 void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain) {
-  strain_.update(grid_, boundary_.walls(), u_strain, box_);
-  if (scene_.numerics.bed_surface == BedSurface::part_cells) free_faces_of_part_cells(rheology, u_strain);
+  strain_of_contacts(rheology, u_strain, strain_);
   boundary_.fill_scalar(strain_.normal_squared);
   const double n = scene_.contact.regularisation;
   FrictionLaw friction = scene_.model.friction_law;

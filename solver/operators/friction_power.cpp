@@ -2,11 +2,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/closures/contact_friction.hpp"
 #include "solver/operators/component_pointers.hpp"
 #include "solver/operators/friction.hpp"
 #include "solver/operators/stress_power.hpp"
 
 namespace granvof {
+
+// By the shape of (17) alone: of the coefficient's own dependence on the rate nothing is asked.
+double Friction::yields_otherwise(const Rheology& rheology, const State& next) {
+  if (is_empty(box_) || !scene_.model.contact_friction) return 0.0;
+  strain_of_contacts(rheology, next.u_s, strain_of_solve_);
+  const double n = scene_.contact.regularisation;
+  const double *mu = mu_.data(), *kinetic = lambda_.data(), *was = strain_.squared.data(),
+               *is = strain_of_solve_.squared.data();
+  const auto shape = [=](double squared) {
+    return closures::friction_viscosity(1.0, 1.0, n, std::sqrt(0.5 * squared));
+  };
+  const auto spent = [=](std::ptrdiff_t c) { return 2.0 * (mu[c] - kinetic[c]) * is[c]; };
+  const Range cells = common(box_, grid_.all_cells());
+  const double by_law =
+      sum_over(grid_.cells, cells, [=](std::ptrdiff_t c) { return spent(c) * shape(is[c]) / shape(was[c]); });
+  const double otherwise = sum_over(grid_.cells, cells, [=](std::ptrdiff_t c) {
+    return spent(c) * std::fabs(1.0 - shape(is[c]) / shape(was[c]));
+  });
+  return by_law > 0.0 ? otherwise / by_law : 0.0;
+}
 
 Friction::Power Friction::power(const FaceField& mass, const State& next, Field& kinetic_power) {
   kinetic_power.fill(0.0);

@@ -5,30 +5,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/grid/field.hpp"
 #include "solver/grid/inner_walls.hpp"
-#include "solver/operators/limiter.hpp"
 
 namespace granvof {
 
 class SolidFractionFlux {
  public:
-  explicit SolidFractionFlux(SolidFlux scheme) : scheme_(scheme) {}
+  explicit SolidFractionFlux(closures::SlopeLimiter limiter) : limiter_(limiter) {}
 
   // Fraction carried through the faces of direction d by velocity u over dt; two ghost layers of f must be
   // filled. At u = 0 the mean of both sides, so that a mirrored scene stays mirrored.
   void face_values(const Grid& grid, const InnerWalls& walls, const Field& f_s, const Field& u, int d,
                    double dt, const Range& faces, Field& face) const {
-    switch (scheme_) {
-      case SolidFlux::upwind:
-        return upwind(grid, f_s, u, d, faces, face);
-      case SolidFlux::limited:
-        return limited(
-            grid, walls, f_s, u, d, dt, faces, [](double a, double b) { return van_leer(a, b); }, face);
-      case SolidFlux::compressive:
-        return limited(
-            grid, walls, f_s, u, d, dt, faces, [](double a, double b) { return superbee(a, b); }, face);
-    }
+    limiter_.with([&](auto limiter) {
+      if constexpr (limiter.second_order)
+        limited(grid, walls, f_s, u, d, dt, faces, limiter, face);
+      else
+        upwind(grid, f_s, u, d, faces, face);
+    });
   }
 
  private:
@@ -47,9 +43,9 @@ class SolidFractionFlux {
     });
   }
 
-  template <typename Slope>
+  template <typename Limiter>
   static void limited(const Grid& grid, const InnerWalls& walls, const Field& f_s, const Field& u, int d,
-                      double dt, const Range& faces, Slope slope, Field& face) {
+                      double dt, const Range& faces, Limiter limiter, Field& face) {
     const double *f = f_s.data(), *v = u.data();
     double* out = face.data();
     const std::ptrdiff_t s = grid.stride(d);
@@ -59,8 +55,9 @@ class SolidFractionFlux {
       const double middle = values[c] - values[c - t];
       // the slope, shortened by the Courant number: second order in time too, and bounded up to 1
       const double reach = 0.5 * std::max(1.0 - std::fabs(w) * courant_per_speed, 0.0);
-      const double from_lower = values[c - t] + reach * slope(values[c - t] - values[c - 2 * t], middle);
-      const double from_upper = values[c] - reach * slope(values[c + t] - values[c], middle);
+      const double from_lower =
+          values[c - t] + reach * limiter.slope(values[c - t] - values[c - 2 * t], middle);
+      const double from_upper = values[c] - reach * limiter.slope(values[c + t] - values[c], middle);
       const double of_lower = share_of_lower(w);
       const double upwind = of_lower * from_lower + (1.0 - of_lower) * from_upper;
       return w == 0.0 ? 0.5 * (values[c] + values[c - t]) : upwind;
@@ -73,7 +70,7 @@ class SolidFractionFlux {
     }
   }
 
-  SolidFlux scheme_;
+  closures::SlopeLimiter limiter_;
 };
 
 }  // namespace granvof

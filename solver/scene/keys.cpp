@@ -7,6 +7,7 @@
 #include "solver/scene/keys_of_model.hpp"
 #include "solver/scene/keys_of_sides.hpp"
 #include "solver/scene/presets.hpp"
+#include "solver/scene/words_of_list.hpp"
 
 namespace granvof::case_file {
 namespace {
@@ -132,9 +133,6 @@ std::vector<Key> time_keys() {
 }
 
 std::vector<Key> numerics_keys() {
-  const Words<SolidFlux> fluxes{{"upwind", SolidFlux::upwind},
-                                {"limited", SolidFlux::limited},
-                                {"compressive", SolidFlux::compressive}};
   const Words<BedSurface> surfaces{{"whole-cells", BedSurface::whole_cells},
                                    {"part-cells", BedSurface::part_cells}};
   const Words<InterfaceScheme> schemes{{"cicsam", InterfaceScheme::cicsam},
@@ -151,9 +149,11 @@ std::vector<Key> numerics_keys() {
       otherwise(key(parts::time_step, "numerics.dt_min", "s", positive, MEMBER(scene.numerics.dt_min),
                     "A refused step that would be shorter ends the run; at most dt_max."),
                 "2e-7 dt_max"),
-      choice(parts::momentum, "numerics.solid_flux", fluxes, MEMBER(scene.numerics.solid_flux),
-             "Flux of f_s and convection of both momenta: first order (the paper), or second order, bounded; "
-             "that of a gas over a liquid stays of first order."),
+      choice(
+          parts::momentum, "numerics.solid_flux", words_of<closures::SlopeLimiters>(),
+          MEMBER(scene.numerics.solid_flux),
+          "Flux of f_s and convection of both momenta: " + sources_of<closures::SlopeLimiters>() +
+              "; the latter two of second order, bounded; that of a gas over a liquid stays of first order."),
       choice(
           parts::bed_surface, "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
           "Contact needs f_s,min in the whole cell (the paper), or grains that fill a part of a cell at the "

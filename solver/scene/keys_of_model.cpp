@@ -2,29 +2,9 @@
 
 #include "solver/scene/key_types.hpp"
 #include "solver/scene/presets.hpp"
+#include "solver/scene/words_of_list.hpp"
 
 namespace granvof::case_file {
-namespace {
-
-// Words of a list of closures, as they stand in it.
-template <typename List>
-Words<closures::Chosen<List>> words_of() {
-  Words<closures::Chosen<List>> words;
-  for (std::size_t place = 0; place < List::facts.size(); ++place)
-    words.emplace_back(List::facts[place].word, closures::Chosen<List>(place));
-  return words;
-}
-
-// Their sources, with semicolons between them.
-template <typename List>
-std::string sources_of() {
-  std::string text;
-  for (const closures::ClosureFacts& facts : List::facts)
-    text.append(text.empty() ? "" : "; ").append(facts.source);
-  return text;
-}
-
-}  // namespace
 
 std::vector<Key> contact_keys() {
   const auto of = [](auto member) {

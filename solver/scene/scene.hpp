@@ -18,6 +18,7 @@
 #include "solver/closures/kinetic_transport/laws.hpp"
 #include "solver/closures/packing/laws.hpp"
 #include "solver/closures/radial_distribution/laws.hpp"
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/model/fluid.hpp"
 #include "solver/model/grains.hpp"
 
@@ -117,6 +118,7 @@ using closures::FrictionLaw;
 using closures::KineticTransport;
 using closures::Packing;
 using closures::RadialDistribution;
+using closures::SlopeLimiter;
 using closures::TemperatureModel;
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
@@ -158,9 +160,6 @@ struct Model {
   bool operator==(const Model&) const = default;
 };
 
-// Of f_s and of both momenta: first order (the paper), second order bounded, or the same with the steepest
-// bounded flux of f_s.
-enum class SolidFlux { upwind, limited, compressive };
 // P_s of the step: at the new solid fraction, or at the old one (which ties the step to the elastic waves).
 enum class ContactPressure { implicit, explicit_ };
 enum class InterfaceScheme { cicsam, plic, upwind };
@@ -169,10 +168,10 @@ enum class InterfaceScheme { cicsam, plic, upwind };
 enum class BedSurface { whole_cells, part_cells };
 
 struct Numerics {
-  double cfl = 0.4;      // convective Courant number of the step, in (0, 0.9]
-  double dt_max = 5e-3;  // [s]
-  double dt_min = 1e-9;  // a refused step that would be shorter ends the run [s]
-  SolidFlux solid_flux = SolidFlux::upwind;
+  double cfl = 0.4;         // convective Courant number of the step, in (0, 0.9]
+  double dt_max = 5e-3;     // [s]
+  double dt_min = 1e-9;     // a refused step that would be shorter ends the run [s]
+  SlopeLimiter solid_flux;  // of f_s; one of second order makes both momenta so, by van Leer's
   BedSurface bed_surface = BedSurface::whole_cells;
   InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
   ContactPressure contact_pressure = ContactPressure::implicit;

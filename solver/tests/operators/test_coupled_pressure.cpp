@@ -118,7 +118,8 @@ TEST(CoupledPressure, WaterAtRestIsHydrostatic) {
 TEST(CoupledPressure, ClosesBothBalancesFromRandomStates) {
   for (int dim : {2, 3})
     for (const char* kind : {"open", "closed", "periodic"})
-      for (SolidFlux flux : {SolidFlux::upwind, SolidFlux::limited})
+      for (SlopeLimiter flux :
+           {SlopeLimiter::of<closures::LimiterNone>(), SlopeLimiter::of<closures::LimiterVanLeer>()})
         for (double density : {50.0, 200.0, 2500.0}) {
           Scene scene = unit_scene(dim, 8);
           scene.numerics.solid_flux = flux;

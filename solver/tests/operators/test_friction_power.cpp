@@ -47,5 +47,35 @@ TEST(Friction, KineticPowerOfEachCell) {
   }
 }
 
+// A layer sheared at twice the rate that the viscosities were taken at: all of (17) is spent twice. Where the
+// regularisation bears it the viscosity does not know the rate, and nothing is missed.
+TEST(Friction, WhatItsViscositiesMiss) {
+  for (const bool regularised : {false, true}) {
+    Scene scene = box_scene(2, {4, 6, 1}, {0.4, 0.6, 1.0});
+    make_periodic(scene, 0);
+    scene.contact.regularisation = regularised ? 1e-6 : 1e5;
+    Bed bed(scene);
+    bed.rheology.enduring_pressure.fill(100.0);
+    const auto shear = [&](double rate) {
+      return bed.s.faces({[=](const Vec3& x) { return rate * x[1]; }, [](const Vec3&) { return 0.0; },
+                          [](const Vec3&) { return 0.0; }});
+    };
+    bed.u = bed.u_strain = shear(3.0);
+    for (int d = 0; d < 2; ++d) bed.mass[d].fill(1e9);
+    bed.rhs = bed.u;
+    for (int d = 0; d < 2; ++d)
+      bed.s.each_cell([&](int, int, int, std::ptrdiff_t c) { bed.rhs[d][c] *= 1e9; });
+    bed.solve();  // so heavy that nothing moves
+    const auto missed = [&](double rate) {
+      bed.next.u_s = shear(rate);
+      bed.s.boundary.fill_velocity(bed.next.u_s, Phase::solid);
+      return bed.friction.yields_otherwise(bed.rheology, bed.next);
+    };
+    EXPECT_NEAR(missed(3.0), 0.0, 1e-6);
+    EXPECT_NEAR(missed(6.0), regularised ? 0.0 : 1.0, 1e-3);
+    EXPECT_NEAR(missed(1.5), regularised ? 0.0 : 0.5, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace granvof

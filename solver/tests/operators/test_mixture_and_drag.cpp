@@ -91,7 +91,7 @@ TEST(InterphaseDrag, IsForgottenWhereTheGrainsLeft) {
 // hindered as those below them, grains that rise as the lone ones above; the paper's scheme takes the mean.
 TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
   const double below = 0.4, mean = 0.2;
-  const auto beta_at = [&](SolidFlux flux, double slip) {
+  const auto beta_at = [&](SlopeLimiter flux, double slip) {
     Scene scene = unit_scene(2, 4);
     scene.numerics.solid_flux = flux;
     const Tank s(scene);
@@ -109,8 +109,9 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
     return closures::drag_paper(f, 0.3, s.scene.liquid, s.scene.solid.diameter) / (f * (1.0 - f)) * mean *
            (1.0 - mean);
   };
-  EXPECT_NEAR(beta_at(SolidFlux::upwind, 0.3), law(mean), 1e-12 * law(mean));
-  for (const SolidFlux flux : {SolidFlux::limited, SolidFlux::compressive}) {
+  EXPECT_NEAR(beta_at(SlopeLimiter::of<closures::LimiterNone>(), 0.3), law(mean), 1e-12 * law(mean));
+  for (const SlopeLimiter flux :
+       {SlopeLimiter::of<closures::LimiterVanLeer>(), SlopeLimiter::of<closures::LimiterSuperbee>()}) {
     EXPECT_NEAR(beta_at(flux, 0.3), law(below), 1e-12 * law(below));
     EXPECT_NEAR(beta_at(flux, -0.3), law(1e-12), 1e-9 * law(1e-12));
     EXPECT_NEAR(beta_at(flux, 0.0), closures::drag_paper(mean, 0.0, s.scene.liquid, s.scene.solid.diameter),

@@ -15,9 +15,14 @@ using test::make_periodic;
 using test::Tank;
 using test::unit_scene;
 
-constexpr std::array<SolidFlux, 3> schemes{SolidFlux::upwind, SolidFlux::limited, SolidFlux::compressive};
+using closures::LimiterNone;
+using closures::LimiterSuperbee;
+using closures::LimiterVanLeer;
 
-FaceField flux_of(const Tank& s, SolidFlux scheme, const Field& f, const FaceField& u, double dt) {
+constexpr std::array schemes{SlopeLimiter::of<LimiterNone>(), SlopeLimiter::of<LimiterVanLeer>(),
+                             SlopeLimiter::of<LimiterSuperbee>()};
+
+FaceField flux_of(const Tank& s, SlopeLimiter scheme, const Field& f, const FaceField& u, double dt) {
   const SolidFractionFlux fraction(scheme);
   FaceField flux(s.grid);
   for (int d = 0; d < s.grid.dim; ++d) {
@@ -30,7 +35,7 @@ FaceField flux_of(const Tank& s, SolidFlux scheme, const Field& f, const FaceFie
 
 TEST(SolidTransport, ConservesToRounding) {
   for (int dim : {2, 3})
-    for (SolidFlux scheme : schemes)
+    for (SlopeLimiter scheme : schemes)
       for (bool periodic : {false, true}) {
         Scene scene = unit_scene(dim, 8);
         if (periodic) make_periodic(scene, 0);
@@ -43,7 +48,7 @@ TEST(SolidTransport, ConservesToRounding) {
 }
 
 // A pulse carried once around a periodic line; returns the mean error against where it began.
-double carried_once(int n, SolidFlux scheme, double courant, double speed, bool step) {
+double carried_once(int n, SlopeLimiter scheme, double courant, double speed, bool step) {
   Scene scene = box_scene(2, {n, 1, 1}, {1.0, 1.0, 1.0});
   make_periodic(scene, 0);
   const Tank s(scene);
@@ -73,7 +78,7 @@ double carried_once(int n, SolidFlux scheme, double courant, double speed, bool 
 }
 
 TEST(SolidTransport, StaysWithinBoundsAtEveryCourantNumber) {
-  for (SolidFlux scheme : schemes)
+  for (SlopeLimiter scheme : schemes)
     for (double courant : {0.1, 0.5, 0.8, 1.0})
       for (double speed : {2.0, -2.0}) {
         const double error = carried_once(40, scheme, courant, speed, true);
@@ -84,27 +89,29 @@ TEST(SolidTransport, StaysWithinBoundsAtEveryCourantNumber) {
 }
 
 TEST(SolidTransport, OrderOnASmoothPulse) {
-  const auto order = [](SolidFlux scheme, double speed) {
+  const auto order = [](SlopeLimiter scheme, double speed) {
     return std::log2(carried_once(64, scheme, 0.4, speed, false) /
                      carried_once(128, scheme, 0.4, speed, false));
   };
   for (double speed : {1.0, -1.0}) {
-    EXPECT_NEAR(order(SolidFlux::upwind, speed), 1.0, 0.1);
-    EXPECT_GT(order(SolidFlux::limited, speed), 1.7);
+    EXPECT_NEAR(order(SlopeLimiter::of<LimiterNone>(), speed), 1.0, 0.1);
+    EXPECT_GT(order(SlopeLimiter::of<LimiterVanLeer>(), speed), 1.7);
   }
 }
 
 TEST(SolidTransport, CompressiveFluxKeepsAStep) {
   for (double speed : {1.0, -1.0}) {
-    const auto error = [=](int n, SolidFlux scheme) { return carried_once(n, scheme, 0.4, speed, true); };
-    EXPECT_LT(error(80, SolidFlux::compressive), 0.6 * error(80, SolidFlux::limited));
-    EXPECT_LT(error(160, SolidFlux::compressive), 0.55 * error(80, SolidFlux::compressive));
+    const auto error = [=](int n, SlopeLimiter scheme) { return carried_once(n, scheme, 0.4, speed, true); };
+    EXPECT_LT(error(80, SlopeLimiter::of<LimiterSuperbee>()),
+              0.6 * error(80, SlopeLimiter::of<LimiterVanLeer>()));
+    EXPECT_LT(error(160, SlopeLimiter::of<LimiterSuperbee>()),
+              0.55 * error(80, SlopeLimiter::of<LimiterSuperbee>()));
   }
 }
 
 TEST(SolidTransport, MirroredStatesGiveMirroredFluxes) {
   const int n = 9;
-  for (SolidFlux scheme : schemes) {
+  for (SlopeLimiter scheme : schemes) {
     Tank s(box_scene(2, {n, 4, 1}, {0.9, 0.4, 1.0}));
     const Field f = s.random_cells(0.0, 0.6);
     FaceField u = s.random_faces(-1.0, 1.0);
@@ -129,7 +136,7 @@ TEST(SolidTransport, MirroredStatesGiveMirroredFluxes) {
 TEST(KeepSolidPositive, LeavesFluxesAloneThatCellsCanGive) {
   Tank s(unit_scene(2, 6));
   const Field f = s.random_cells(0.2, 0.6);
-  const FaceField flux = flux_of(s, SolidFlux::upwind, f, s.random_faces(-1.0, 1.0), 0.01);
+  const FaceField flux = flux_of(s, SlopeLimiter::of<LimiterNone>(), f, s.random_faces(-1.0, 1.0), 0.01);
   FaceField solid = flux, fluid = s.random_faces(-1.0, 1.0);
   const FaceField fluid_before = fluid;
   keep_solid_positive(s.grid, s.boundary, 0.01, f, solid, fluid);
@@ -184,7 +191,7 @@ TEST(KeepSolidPositive, ARoundingErrorBelowZeroWithoutOutflowIsNoNan) {
 TEST(Colour, UniformStaysUniformAndShareOfGrainsIsConserved) {
   Tank s(unit_scene(2, 8));
   const Field f = s.random_cells(0.2, 0.5);
-  const FaceField flux = flux_of(s, SolidFlux::upwind, f, s.random_faces(-1.0, 1.0), 0.02);
+  const FaceField flux = flux_of(s, SlopeLimiter::of<LimiterNone>(), f, s.random_faces(-1.0, 1.0), 0.02);
   Field f_new(s.grid), phi = s.random_cells(0.7, 0.7), phi_new(s.grid);
   transport_solid(s.grid, 0.02, f, flux, f_new);
   transport_with_grains(s.grid, 0.02, f, f_new, flux, phi, phi_new);

@@ -1,0 +1,21 @@
+// The slopes within a cell that bound what a face carries of the grains, that numerics.solid_flux chooses
+// from. The first is the paper's. Each has
+//   second_order: it makes fluxes of second order where f_s is smooth,
+//   slope(a, b): between the differences to both sides, in their units; symmetric, 0 at an extremum.
+#pragma once
+
+#include "solver/closures/slope_limiter/none.hpp"
+#include "solver/closures/slope_limiter/superbee.hpp"
+#include "solver/closures/slope_limiter/van_leer.hpp"
+#include "solver/model/choices.hpp"
+
+namespace granvof::closures {
+
+using SlopeLimiters = Choices<LimiterNone, LimiterVanLeer, LimiterSuperbee>;
+using SlopeLimiter = Chosen<SlopeLimiters>;
+
+inline bool is_of_second_order(SlopeLimiter chosen) {
+  return chosen.with([](auto limiter) { return limiter.second_order; });
+}
+
+}  // namespace granvof::closures
