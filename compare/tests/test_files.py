@@ -199,3 +199,12 @@ def test_a_pipe_that_takes_a_files_name_meanwhile(tmp_path):
         stop.set()
         swapping.join()
     assert ends == {"{}", "refused"}
+
+
+def test_a_file_with_holes_that_no_memory_holds(tmp_path):
+    path = tmp_path / "given"
+    path.write_text("{}")
+    os.truncate(path, 1 << 40)
+    for reader in (granvof_files.text_of, granvof_files.bytes_of, granvof_files.json_of, granvof_files.opened):
+        with pytest.raises(granvof_files.NotAFile, match="1099511627776 bytes"):
+            reader(path)

@@ -13,12 +13,13 @@ from pathlib import Path
 
 
 class NotAFile(OSError):
-    """A name that is no regular file, or an HDF5 file that leads to one; says which, and what it is."""
+    """A name that is no regular file, or one too large to be ours, or an HDF5 file that leads to one; says which, and what it is."""
 
 
 # What reading a file that others wrote may raise: no such values, of another kind or shape, too many of them.
 OF_READING = (OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RuntimeError, MemoryError, csv.Error)
 
+MOST_BYTES = 1 << 31  # of a file read at once, as solver/output/atomic_file.cpp: one with holes takes no room where it lies
 KINDS = ((stat.S_ISDIR, "a directory"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"), (stat.S_ISCHR, "a device"),
          (stat.S_ISBLK, "a device"))
 
@@ -39,11 +40,13 @@ def required(path):
 def _open_regular(path, flags):
     """For open(): waits for nobody, and what a name stands for is asked of what was opened: it may be another's a moment later."""
     descriptor = os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
-    mode = os.fstat(descriptor).st_mode
-    if stat.S_ISREG(mode):
+    found = os.fstat(descriptor)
+    if stat.S_ISREG(found.st_mode) and found.st_size <= MOST_BYTES:
         return descriptor
     os.close(descriptor)
-    raise NotAFile(f"it is {_name_of(mode)}, not a file")
+    if stat.S_ISREG(found.st_mode):
+        raise NotAFile(f"it has {found.st_size} bytes, more than {MOST_BYTES}")
+    raise NotAFile(f"it is {_name_of(found.st_mode)}, not a file")
 
 
 def opened(path, mode="r", **form):
@@ -154,13 +157,13 @@ def fields_of(path):
     import h5py  # here: not every reader of files has it
 
     path = Path(path)
-    with h5py.File(required(path), "r") as file:
+    with h5py.File(required(path), "r", locking=False) as file:
         for name in file:
             link = file.get(name, getlink=True)
             if isinstance(link, h5py.ExternalLink):
                 if link.filename != f"fields/{name}.h5":
                     raise NotAFile(f"{name} links to {link.filename}, allowed: fields/{name}.h5")
-                with h5py.File(required(path.parent / link.filename), "r") as piece:
+                with h5py.File(required(path.parent / link.filename), "r", locking=False) as piece:
                     _require_inside(piece, h5py)
             else:
                 _require_member_inside(file, name, h5py)
