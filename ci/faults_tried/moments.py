@@ -5,12 +5,14 @@ import shutil
 import signal
 import subprocess
 import threading
+import time
 
 from faults_tried.bench import PATIENCE, NotTried, listed, refused, told_of_our_end
 from faults_tried.runs import SmallRun, crashed, not_refused, same_content, tree_of
 
 AT_ONCE = 6  # runs that start in the same moment
 ROUNDS = 5
+PAUSE = 0.0003  # seconds between two swaps: what reads needs a processor too
 
 
 def with_its_own_cases(bench, run, place):
@@ -79,6 +81,7 @@ def swapped(path, makers, until):
         for make in makers:
             make(draft)
             os.replace(draft, path)
+            time.sleep(PAUSE)
 
 
 def its_case_swapped_while_it_is_read(bench, run, place):
@@ -90,7 +93,7 @@ def its_case_swapped_while_it_is_read(bench, run, place):
     other.start()
     try:
         for _ in range(60):
-            ended = bench.call([bench.granvof, "check", case], patience=20)
+            ended = bench.call([bench.granvof, "check", case], patience=PATIENCE)
             if ended is None or ended.returncode != 0:
                 if why := refused(ended):
                     return why
@@ -115,12 +118,13 @@ def its_record_swapped_while_it_is_read(bench, run, place):
                 for make in (os.mkfifo, lambda draft, whole=whole: draft.write_bytes(whole)):
                     make(draft)
                     os.replace(draft, path)
+                    time.sleep(PAUSE)
         others.append(threading.Thread(target=swap))
     for other in others:
         other.start()
     try:
         for _ in range(8):
-            ended = bench.call(["/usr/bin/python3", "ci/faults_tried/load.py", out], patience=PATIENCE)
+            ended = bench.call(["/usr/bin/python3", "ci/faults_tried/load.py", out], patience=5 * PATIENCE)
             if ended is None or ended.returncode not in (0, 2) or (ended.returncode == 2 and refused(ended)):
                 return "it waits for a pipe" if ended is None else f"exit code {ended.returncode}: {ended.stderr[-150:]!r}"
     finally:
