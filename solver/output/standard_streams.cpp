@@ -11,12 +11,23 @@
 
 namespace granvof {
 
-void prepare_standard_streams() {
-  std::signal(SIGXFSZ, SIG_IGN);
-  // The other way round than the stream is used: reading and writing fail, as they do where it is closed.
+namespace {
+
+// The other way round than the stream is used: reading and writing fail, as they do where it is closed.
+void fill_closed_streams() {
   constexpr std::array<int, 3> ways = {O_WRONLY, O_RDONLY, O_RDWR};
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
     if (::fcntl(fd, F_GETFD) < 0) ::open("/dev/null", ways[static_cast<std::size_t>(fd)]);
+}
+
+// Before the libraries begin: OpenFOAM opens a file of its own then, whose number would be that of the
+// stream.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = fill_closed_streams;
+
+}  // namespace
+
+void prepare_standard_streams() {
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void require_stdout_written() {
