@@ -3,7 +3,7 @@
 # REFERENCE=off     leave LIGGGHTS, OpenFOAM and demvof out (what needs them is named as left out, and not judged)
 # VERIFY=short      only the checks of that frequency        SCENE=s1   one scene (make reference, charts)
 # OUT=dir           where results go (default: out)          JOBS=n     jobs: compiling, tests, runs beside each other
-# GO_ON=yes         make verify keeps the runs that this very program has made, and goes on with those cut short
+# GO_ON=yes         make verify keeps the runs that this very program has made, and goes on with those cut short; make faults the kinds that held
 # PREFIX=dir        where make install puts it (default: /usr/local)
 # SAMPLE=n          so many of the faults (make mutate)        FOR=n, INPUTS=n   seconds, or inputs, of each reader (make fuzz)
 # LABELS=unit       those tests only (make test; default: unit|verification)
@@ -84,7 +84,7 @@ nightly: setup  ## all stages of the nightly run, with history and trends
 
 faults: setup  ## bad input, kills, full disks, damaged and foreign files (ci/faults.toml): tried and held, for the report
 	ci/build --programs --reference=$(REFERENCE) release
-	ci/faults --build-dir $(RELEASE) --jobs $(JOBS) --out "$(OUT)"
+	ci/faults --build-dir $(RELEASE) --jobs $(JOBS) --out "$(OUT)" $(if $(GO_ON),--go-on)
 
 mutate: setup  ## small faults put into the code one at a time (ci/mutants): who notices each, for the report; goes on where it stopped
 	ci/mutate --out "$(OUT)" --jobs $(JOBS) $(if $(SAMPLE),--sample $(SAMPLE))

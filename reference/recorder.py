@@ -20,7 +20,7 @@ import h5py
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "solver/python"))
 
-from granvof_files import fields_of, is_there, json_in, json_of, no_program, required, toml_of, write_whole  # noqa: E402
+from granvof_files import bytes_of, fields_of, is_there, json_in, json_of, no_program, opened, text_of, toml_of, write_whole  # noqa: E402
 
 RESULTS = ROOT / "reference/results"
 PACKAGES = ("libliggghts3", "libopenfoam")
@@ -89,7 +89,7 @@ def one_line(error):
 def facts_of(path):
     """Content of a run.json or record.json without its seal. RecordError where it is damaged."""
     try:
-        text = required(path).read_text(encoding="utf-8")
+        text = text_of(path)
         facts = json_in(text)
     except (OSError, ValueError) as error:
         raise RecordError(f"{path} cannot be read: {one_line(error)}") from error
@@ -214,7 +214,7 @@ def slim_fields(source, target):
 
 def slim_series(source, target):
     """Copies series.csv with fewer digits."""
-    with open(required(source), newline="") as file:
+    with opened(source, newline="") as file:
         header, *rows = csv.reader(file)
     rows = [[value and f"{float(value):.{DIGITS_KEPT}g}" for value in row] for row in rows]
     target.write_text("".join(",".join(row) + "\n" for row in [header, *rows]))
@@ -223,7 +223,7 @@ def slim_series(source, target):
 def read_series(path):
     """Header and rows of a series.csv, as texts. RecordError where it is damaged."""
     try:
-        with open(required(path), newline="", encoding="utf-8") as file:
+        with opened(path, newline="", encoding="utf-8") as file:
             text = file.read()
         header, *rows = csv.reader(text.splitlines(), strict=True)
         times = [float(row[0]) for row in rows]
@@ -249,7 +249,7 @@ def stated_files(folder):
     """What run.json and record.json say of the files beside them: rows, end, columns and SHA-256 of series.csv, instants and
     SHA-256 of fields.h5 where there is one."""
     def digest(path):
-        return hashlib.sha256(required(path).read_bytes()).hexdigest()
+        return hashlib.sha256(bytes_of(path)).hexdigest()
 
     series, fields = folder / "series.csv", folder / "fields.h5"
     header, rows = read_series(series)
@@ -285,7 +285,7 @@ def state_files(folder):
     taken as they are: that they are those that were written rests on the history of the repository alone, and is said so."""
     path = folder / "record.json"
     facts = facts_of(path)
-    if "files" in facts and is_sealed(required(path).read_text(encoding="utf-8")):
+    if "files" in facts and is_sealed(text_of(path)):
         return False
     if "files" not in facts:
         facts["files"] = stated_files(folder)

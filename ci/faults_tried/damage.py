@@ -111,6 +111,16 @@ def digit(path, chance):
     path.write_bytes(content)
 
 
+def sparse(path, chance):
+    """Grown to a size that no memory holds, and that takes no room on the disk: whoever reads all of it takes minutes."""
+    os.truncate(path, 64 << 30)
+
+
+def utf_16(path, chance):
+    """A text as another system's editor leaves it."""
+    path.write_bytes(path.read_bytes().decode("utf-8", "replace").encode("utf-16"))
+
+
 DEPTH = 100_000  # of what is nested, where a parser may descend once for each
 GROUPS = 2_000  # that lie in each other in an HDF5 file: each costs a thousand times what a bracket does
 
@@ -146,7 +156,7 @@ def long_line(path, chance):
     path.write_bytes(path.read_bytes() + b"9" * (1 << 20) + b"\n")
 
 
-BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text,
+BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text, sparse, utf_16,
                                          fifo, endless, null, bound, to_nothing, to_itself, flipped, line_out, line_twice, digit,
                                          deep, deep_tables, deep_key, deep_header, long_line)}
 NO_FILES = ("directory", "missing", "fifo", "endless", "null", "bound", "to_nothing", "to_itself")  # nothing to be read

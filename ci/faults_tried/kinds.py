@@ -6,7 +6,7 @@ import os
 import resource
 import shutil
 
-from faults_tried import damage, directories, evidence, hostile, interrupted, mounts, orders, orphans, ranks, reading, scarce, surroundings, threads
+from faults_tried import again, checkpoints, damage, directories, evidence, hostile, interrupted, moments, mounts, orders, orphans, ranks, reading, scarce, scripts, surroundings, threads
 from faults_tried.bench import PATIENCE, SAMPLE, NotTried, TableError, listed, refused
 from faults_tried.runs import crashed
 
@@ -92,7 +92,12 @@ def nobody_reads(place):
         yield {"stdout": target}
 
 
-OUTPUTS = {"/dev/full": full_device, "a file that may not grow": may_not_grow, "a pipe that nobody reads": nobody_reads}
+@contextlib.contextmanager
+def closed(place):
+    yield {"preexec_fn": lambda: os.close(1)}
+
+
+OUTPUTS = {"closed": closed, "/dev/full": full_device, "a file that may not grow": may_not_grow, "a pipe that nobody reads": nobody_reads}
 
 
 def outputs(bench, entry):
@@ -139,5 +144,5 @@ def locales(bench, entry):
 KINDS = {kind.__name__: kind for kind in (
     bad_values, contradictions, bad_files, no_programs, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
     interrupted.failing_calls, interrupted.signals_at_calls, ranks.signals_to_ranks, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
-    directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, hostile.hostile,
-    hostile.odd_cases, hostile.own_files, orders.orders, orphans.orphans, orphans.ended_children, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}
+    directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, checkpoints.odd_checkpoints, moments.moments, hostile.hostile,
+    hostile.odd_cases, hostile.own_files, orders.orders, orphans.orphans, orphans.ended_children, again.begun_again, scripts.scripts, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

@@ -5,6 +5,7 @@
  *                      FAULT_SIGNAL=S: that signal comes before it, and it is done
  *   FAULT_BYTES=N      a disk with N bytes left: what goes beyond is cut off, then fails with ENOSPC
  *   FAULT_READ=N       the N-th read of a file below FAULT_BELOW fails with FAULT_ERRNO, or EIO; FAULT_COUNT counts these then
+ *   FAULT_LOCK=E       a file system without locks: asking for one fails with E
  *   FAULT_CLOCK=1      the clock of the day goes back an hour each time it is read
  *
  * Standard streams are let off. The program has one thread; a process that it makes counts on from where it was made,
@@ -233,4 +234,12 @@ int clock_gettime(clockid_t clock, struct timespec* now) {
   const int code = ((int (*)(clockid_t, struct timespec*))next("clock_gettime"))(clock, now);
   if (code == 0 && clock == CLOCK_REALTIME && getenv("FAULT_CLOCK")) now->tv_sec -= (back += 3600);
   return code;
+}
+
+int flock(int fd, int operation) {
+  if (number("FAULT_LOCK") != 0) {
+    errno = (int)number("FAULT_LOCK");
+    return -1;
+  }
+  return ((int (*)(int, int))next("flock"))(fd, operation);
 }

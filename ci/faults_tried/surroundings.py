@@ -1,5 +1,6 @@
 """What is odd about the surroundings of a run: its environment, mask, folder, user, clock and limits."""
 
+import errno
 import os
 import resource
 import shutil
@@ -106,6 +107,20 @@ def children_that_are_not_waited_for(bench, run, place):
     return same(run, place, run.go(place / "run", preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN)))
 
 
+def no_locks(bench, run, place):
+    """A file system that has none: two runs could write at once, so it is refused; what only reads needs none."""
+    without = bench.shimmed(FAULT_LOCK=str(errno.ENOLCK))
+    if why := refused(run.go(place / "run", environment=without)):
+        return why
+    sets = [word for given in run.entry["set"] for word in ("--set", given)]
+    ended = bench.call([bench.compare, "extract", "--scene", "canary", *sets, "--fields", run.whole / "fields.h5", "--out", place / "series.csv"],
+                       environment=without)
+    if ended is None or ended.returncode != 0:
+        return f"extract: exit code {ended and ended.returncode}: {ended and ended.stderr[-150:]!r}"
+    ended = bench.call(["/usr/bin/python3", "ci/faults_tried/load.py", run.whole], environment=without)
+    return "" if ended is not None and ended.returncode == 0 else f"load: exit code {ended and ended.returncode}: {ended and ended.stderr[-150:]!r}"
+
+
 TRIES = {
     "no environment": no_environment,
     "no home": with_environment(HOME="/nothing/there"),
@@ -116,6 +131,12 @@ TRIES = {
     "a stack for threads that is none": with_environment(OMP_STACKSIZE="1B"),
     "links looked for elsewhere": with_environment(HDF5_EXT_PREFIX="/nothing/there", HDF5_PLUGIN_PATH="/nothing/there"),
     "no locks of HDF5": with_environment(HDF5_USE_FILE_LOCKING="FALSE"),
+    "locks of HDF5 that are none": with_environment(HDF5_USE_FILE_LOCKING="nonsense"),
+    "locks of HDF5 where they can be": with_environment(HDF5_USE_FILE_LOCKING="BEST_EFFORT"),
+    "a file system without locks": no_locks,
+    "a home that is a device": with_environment(HOME="/dev/null", XDG_CACHE_HOME="/proc"),
+    "a path with nothing on it": with_environment(PATH="/nothing"),
+    "a device for temporary files": with_environment(TMPDIR="/dev/null"),
     "a mask of 077": with_mask(0o077),
     "a mask of 777": with_mask(0o777),
     "its folder is gone": its_folder_is_gone,

@@ -9,7 +9,7 @@ import csv
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
-from granvof_files import required
+from granvof_files import opened
 
 LEAST_WORDS = 4
 
@@ -30,7 +30,7 @@ def read(path: Path) -> list[Blessing]:
     if not path.exists():
         return []
     try:
-        with required(path).open(newline="", encoding="utf-8") as file:
+        with opened(path, newline="", encoding="utf-8") as file:
             rows = csv.DictReader(file, strict=True)
             if list(rows.fieldnames or []) != [field.name for field in fields(Blessing)]:
                 raise ValueError("its columns are not those of a list of blessings")

@@ -189,8 +189,36 @@ def test_the_report_shows_what_was_tried(tmp_path):
     assert done.returncode == 1
     (shown,) = sections.read_all(tmp_path / "out")
     assert shown.name == "faults" and "0 of 2 tries held" in shown.text[0]
-    assert shown.tables[0]["rows"][-1] == ["all", "", 2, 0, 0, 0]
+    assert shown.tables[0]["rows"][-1] == ["all", "", 2, 0, 0, 0, ""]
     assert shown.tables[1]["rows"][0] == ["bad_values", "cases/s1.toml: grid.dx='nan'", "exit code 0"]
+
+
+def test_what_was_held_before_is_kept_while_nothing_has_changed(tmp_path):
+    """A kind that was not held is tried again, and all of them on another program or by other entries; the sum is of all."""
+    build = stand_in(tmp_path / "build", 'case "$*" in *dx=5*) exit 0;; esac; echo said >&2; exit 2')
+    other = '[[contradictions]]\ncase = "cases/s1.toml"\ngiven = [["a.b=1"]]\n'
+
+    def call(text, *words):
+        done = subprocess.run([FAULTS, "--build-dir", build, "--table", table_of(tmp_path, text), "--out", tmp_path / "out", *words],
+                              capture_output=True, text=True)
+        lines = [line for line in done.stdout.splitlines() if " tried " in line]
+        return done.returncode, {line.split()[0]: "kept" in line for line in lines}, " ".join(lines[-1].split()[:5])
+
+    assert call(BAD_VALUES, "--only", "bad_values") == (0, {"bad_values": False, "all": False}, "all tried 2, held 2,")
+    assert call(BAD_VALUES + other, "--go-on") == (0, {"bad_values": True, "contradictions": False, "all": False}, "all tried 3, held 3,")
+    (shown,) = sections.read_all(tmp_path / "out")
+    assert [row[2] for row in shown.tables[0]["rows"]] == [2, 1, 3]
+    assert call(BAD_VALUES.replace('"0"', '"5"') + other, "--go-on") == (1, {"contradictions": True, "bad_values": False, "all": False}, "all tried 3, held 2,")
+    assert call(BAD_VALUES.replace('"0"', '"5"') + other, "--go-on")[:2] == (1, {"contradictions": True, "bad_values": False, "all": False})
+    assert not call(other)[1]["contradictions"]  # not asked to go on
+    with open(build / "solver/granvof", "a") as program:
+        program.write("# another\n")
+    assert not call(other, "--go-on")[1]["contradictions"]
+
+
+def test_a_kind_of_which_nothing_was_tried_is_no_success(tmp_path):
+    done = tried(tmp_path, "echo no >&2; exit 2", BAD_VALUES + BAD_VALUES.replace("bad_values", "contradictions").replace("keys", "given = [] #"))
+    assert done.returncode == 2 and "contradictions: nothing was tried" in done.stderr, done.stdout + done.stderr
 
 
 def test_a_full_standard_output_must_not_be_a_success(tmp_path):

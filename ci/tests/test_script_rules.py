@@ -7,6 +7,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 OF_THE_TREE = ("ci/mutation", "ci/mutate", "ci/tidy", "ci/faults_tried", "ci/night/guard.py",
                "compare/report/trust_table.py")  # they read sources and /proc, and what they made
 READS = {"open", "read_text", "read_bytes", "File", "connect"}  # of pathlib, of h5py and sqlite3
+BY_NAME = {"File", "connect", "Image.open"}  # of libraries that open by name
+OPENERS = ("solver/python/granvof_files.py", "solver/python/complaint.py")  # the readers themselves, and /dev/null
 NOT_TOLD = ("ci/mutation/", "ci/tidy", "ci/fuzz", "ci/manuals")  # what they start is ended as a group, or is a build
 
 
@@ -27,11 +29,12 @@ def is_for_writing(call):
 
 
 def is_asked(call):
-    """Whether what is opened went through required(), or is the kernel's."""
+    """Whether what is opened is the kernel's, or a library's that goes through required()."""
     opened = [call.func] + call.args[:1]
     words = {getattr(part.func, "id", "") for whole in opened for part in ast.walk(whole) if isinstance(part, ast.Call)}
     texts = [part.value for whole in opened for part in ast.walk(whole) if isinstance(part, ast.Constant) and isinstance(part.value, str)]
-    return "required" in words or any(text.startswith("/proc") for text in texts)
+    by_name = any(ast.unparse(call.func).endswith(name) for name in BY_NAME)
+    return (by_name and "required" in words) or any(text.startswith("/proc") for text in texts)
 
 
 def is_a_read(call):
@@ -41,8 +44,9 @@ def is_a_read(call):
 
 
 def test_every_script_asks_before_it_opens():
-    """A reader that is added must not wait for a pipe either: open(), Path.open(), read_text() and their like take required(path)."""
-    unasked = [f"{name}:{call.lineno}" for name, tree in scripts(OF_THE_TREE) for call in ast.walk(tree)
+    """A reader that is added must not wait for a pipe either: opened(), text_of() and bytes_of() stand for open(), Path.open(),
+    read_text() and their like; what a library opens by name takes required(path)."""
+    unasked = [f"{name}:{call.lineno}" for name, tree in scripts((*OF_THE_TREE, *OPENERS)) for call in ast.walk(tree)
                if isinstance(call, ast.Call) and is_a_read(call) and not is_for_writing(call) and not is_asked(call)]
     assert unasked == []
 
@@ -64,3 +68,14 @@ def test_every_script_sees_to_the_end_of_what_it_starts():
     untold = [f"{name}:{call.lineno}" for name, tree in scripts(NOT_TOLD) for call in ast.walk(tree) if isinstance(call, ast.Call) and starts(call)
               if not {"preexec_fn", "capture_output", "input"} & {word.arg for word in call.keywords}]
     assert untold == []
+
+
+def is_called(tree, name):
+    return any(isinstance(call, ast.Call) and getattr(call.func, "id", "") == name for call in ast.walk(tree))
+
+
+def test_every_program_ends_as_the_others_do():
+    """Closed streams, output that cannot be written and too few descriptors are one line and an exit code: main goes through ended(). The
+    night's guard ends with the code of what it guards."""
+    programs = [name for name, tree in scripts(("ci/night/guard.py",)) if (ROOT / name).stat().st_mode & 0o100 and not is_called(tree, "ended")]
+    assert programs == []

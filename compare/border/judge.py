@@ -7,7 +7,7 @@ from pathlib import Path
 
 from engine.client import BAD_INPUT, CPU_LIMIT, FINISHED, SIGNAL, order
 
-from granvof_files import required, toml_in
+from granvof_files import opened, toml_in
 
 # Classes of an outcome, from good to bad. The last is the one that must not exist: wrong, and no monitor says so.
 HOLDS, COLLAPSE, BLOW_UP, DETECTED, UNDETECTED = (
@@ -85,7 +85,7 @@ class Runner:
 
 def series(run, column):
     """(times, values) of a column of series.csv; undefined values left out."""
-    with open(required(run / "series.csv"), newline="") as file:
+    with opened(run / "series.csv", newline="") as file:
         rows = list(csv.reader(file))
     names = [name.split(" [")[0] for name in rows[0]]
     at = names.index(column)

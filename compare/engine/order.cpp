@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "solver/output/json_fault.hpp"
+
 namespace granvof::compare {
 namespace {
 
@@ -40,7 +42,7 @@ Order read_order(std::string_view json_line) {
       throw std::invalid_argument("a limit is 0 (none) or more");
     return order;
   } catch (const nlohmann::json::exception& error) {
-    throw std::invalid_argument(error.what());
+    throw std::invalid_argument(json_fault(error));
   }
 }
 

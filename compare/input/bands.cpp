@@ -10,6 +10,7 @@
 
 #include "compare/input/is_there.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/json_fault.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof::compare {
@@ -56,7 +57,7 @@ Bands read_bands(const std::filesystem::path& records) {
       for (const auto& [name, kind] : kinds)
         if (against.starts_with(name)) bands.add(difference.at("scene"), difference.at("column"), kind, rms);
     } catch (const nlohmann::json::exception& error) {
-      throw OutputError("read", file, error.what());
+      throw OutputError("read", file, json_fault(error));
     }
   }
   if (bands.empty()) throw OutputError("read", file, "there is no band in it");

@@ -10,6 +10,7 @@
 #include "compare/input/is_there.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/fields_file.hpp"
+#include "solver/output/json_fault.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/seal.hpp"
 #include "solver/scene/printable.hpp"
@@ -136,7 +137,7 @@ RunFacts read_facts(const std::filesystem::path& json_file) {
     facts.sealed = seal_of(text) == Seal::whole;
     return facts;
   } catch (const nlohmann::json::exception& error) {
-    throw OutputError("read", json_file, error.what());
+    throw OutputError("read", json_file, json_fault(error));
   }
 }
 

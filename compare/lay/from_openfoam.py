@@ -8,7 +8,7 @@ import re
 import h5py
 import numpy as np
 
-from granvof_files import required
+from granvof_files import text_of
 
 NUMBER = r"[-+0-9.eE]+"
 
@@ -22,7 +22,7 @@ def read_grid(case):
     path = case / "system/blockMeshDict"
     if not path.exists():
         raise CaseError(f"{path} is missing: is {case} an OpenFOAM case?")
-    text = re.sub(r"//.*", "", required(path).read_text())
+    text = re.sub(r"//.*", "", text_of(path))
     blocks = re.findall(r"hex\s*\([\d\s]+\)\s*\((\d+)\s+(\d+)\s+(\d+)\)\s*simpleGrading\s*\(\s*1\s+1\s+1\s*\)", text)
     if len(blocks) != 1 or text.count("hex") != 1:
         raise CaseError(f"{path}: one block with simpleGrading (1 1 1) is needed")
@@ -36,7 +36,7 @@ def read_grid(case):
 
 def read_field(path, cells, width):
     """Internal field as an array (z, y, x) or, for `width` 3, (z, y, x, 3)."""
-    text = required(path).read_text()
+    text = text_of(path)
     shape = tuple(cells[::-1]) + ((width,) if width > 1 else ())
     listed = re.search(r"internalField\s+nonuniform\s+List<\w+>\s+(\d+)\s*\((.*?)\n\)\s*;", text, re.S)
     if listed:

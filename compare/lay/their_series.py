@@ -12,7 +12,7 @@ import math
 import re
 from dataclasses import dataclass, field
 
-from granvof_files import required, write_whole
+from granvof_files import bytes_of, required, write_whole
 
 # Unit -> the SI unit, and what to multiply by.
 UNITS = {
@@ -68,7 +68,7 @@ def text_of(path):
     try:
         if required(path).stat().st_size > MOST_BYTES:
             raise SeriesError(f"{path}: larger than {MOST_BYTES >> 20} MB")
-        data = required(path).read_bytes()
+        data = bytes_of(path)
     except OSError as error:
         raise SeriesError(f"{path}: {error.strerror}") from error
     marks = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}

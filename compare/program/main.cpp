@@ -20,6 +20,7 @@
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/empty_values.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/own_stack.hpp"
 #include "solver/output/run_record.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/output/standard_streams.hpp"
@@ -219,6 +220,7 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   prepare_standard_streams();
+  if (!has_stack("granvof-compare")) return 2;
   try {
     const int code = parse_and_run(argc, argv);
     require_stdout_written();

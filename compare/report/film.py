@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 from PIL import Image, ImageDraw
 
-from granvof_files import required, write_whole
+from granvof_files import bytes_of, write_whole
 from report.results import snapshots
 from report.snapshots import label_of_time
 from report.style import plt
@@ -55,7 +55,7 @@ class Film:
             ended = subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{wide}x{high}",
                                     "-r", str(RATE), "-i", "-", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart", path],
                                    input=pixels, stderr=subprocess.DEVNULL)
-            return required(path).read_bytes() if ended.returncode == 0 and path.exists() else None
+            return bytes_of(path) if ended.returncode == 0 and path.exists() else None
 
 
 def film(entry, record=None, name=""):

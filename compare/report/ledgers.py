@@ -17,7 +17,7 @@ import numpy as np
 
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).resolve().parent.parent), str(Path(__file__).resolve().parent.parent.parent / "solver/python")]
-from granvof_files import required  # noqa: E402
+from granvof_files import opened  # noqa: E402
 from report import style  # noqa: E402
 from report.results import OF_READING, Damaged  # noqa: E402
 from report.style import plt  # noqa: E402
@@ -42,7 +42,7 @@ def read_ledger(directory):
     """Time [s] and, for each of TERMS, its change since the first row [J]; None where the series has no energy budget."""
     path = Path(directory) / "series.csv"
     try:
-        with open(required(path), newline="", encoding="utf-8") as file:
+        with opened(path, newline="", encoding="utf-8") as file:
             header, *rows = csv.reader(file)
         columns = {name.split(" [")[0]: index for index, name in enumerate(header)}
         if "lost_drag" not in columns:

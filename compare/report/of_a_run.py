@@ -7,7 +7,7 @@ import jinja2
 import numpy as np
 
 import granvof
-from granvof_files import OF_READING, required, toml_in, write_whole
+from granvof_files import OF_READING, bytes_of, toml_in, write_whole
 from report import snapshots, states, style
 from report.embedded import encoded
 from report.film import caption, film
@@ -99,7 +99,7 @@ def show(directory):
     for drawn in snapshots.plan_plot(results, name, out):
         plots.append((drawn, "From above: depth of the solid, of grains without pores."))
     plots += [(drawn, states.caption(name)) for drawn in states.state_plot(results, name, out)]
-    figures = [{"data": encoded(required(out / f"{plot}.png").read_bytes()), "caption": said} for plot, said in plots]
+    figures = [{"data": encoded(bytes_of(out / f"{plot}.png")), "caption": said} for plot, said in plots]
     moving = film(entry)
     if moving:
         figures.insert(0, {"data": encoded(moving.write(out / "film")), "caption": caption(name, scene, False)})

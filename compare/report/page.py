@@ -4,7 +4,7 @@ from pathlib import Path
 
 import jinja2
 
-from granvof_files import required
+from granvof_files import bytes_of
 from report import figures, kept_results, overview, style
 from report.embedded import encoded
 from report.film import caption, film
@@ -48,7 +48,7 @@ def render(results, plots, sections=(), kept=None):
         damaged=results.damaged,
         sections=sections,
         plots=[{"name": name, "caption": figures.caption(name),
-                "data": encoded(required(results.directory / "plots" / f"{name}.png").read_bytes())} for name in plots])
+                "data": encoded(bytes_of(results.directory / "plots" / f"{name}.png"))} for name in plots])
 
 
 def plot_word(name):

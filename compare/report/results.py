@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from granvof_files import OF_READING, fields_of, is_there, json_of, required, values_of
+from granvof_files import OF_READING, fields_of, is_there, json_of, text_of, values_of
 
 
 class Damaged(ValueError):
@@ -63,7 +63,7 @@ class Results:
         if not path.exists():
             return None
         try:
-            lines = [line.split("\t") for line in required(path).read_text().splitlines() if line and not line.startswith("#")]
+            lines = [line.split("\t") for line in text_of(path).splitlines() if line and not line.startswith("#")]
             index = [name.split(" [")[0] for name in lines[0]].index(column)
             values = np.array([[float(line[0]), float(line[index])] for line in lines[1:]])
             return values[:, 0], values[:, 1]

@@ -12,7 +12,7 @@ made at another commit than the runs of the page says so by its own commit and d
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from granvof_files import json_of, required
+from granvof_files import bytes_of, json_of
 from report.embedded import encoded
 from report.results import Damaged
 
@@ -54,7 +54,7 @@ def read(directory):
 def figure(directory, entry):
     path = directory / Path(entry["file"]).name
     return {"name": f"{directory.name}-{path.stem}", "caption": entry["caption"],
-            "data": encoded(required(path).read_bytes())}
+            "data": encoded(bytes_of(path))}
 
 
 def listed(text):

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/json_fault.hpp"
 #include "solver/scene/load_scene.hpp"
 
 namespace granvof::compare {
@@ -119,7 +120,7 @@ std::vector<KnownRow> read_known_rows(const std::filesystem::path& file) {
       rows.push_back({row.at("scene"), row.at("metric"), row.at("reference_kind"),
                       row.at("value").get<double>(), row.at("reference").get<double>()});
     } catch (const nlohmann::json::exception& error) {
-      throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+      throw std::runtime_error(fmt::format("{}: {}", file.string(), json_fault(error)));
     }
   }
   return rows;

@@ -280,5 +280,22 @@ TEST(Order, WhatIsWrongWithALineIsSaid) {
     EXPECT_THROW(read_order(wrong), std::invalid_argument) << wrong;
 }
 
+// In words of its own: no name or number of the library that reads it.
+TEST(Order, WhatIsWrongIsSaidForAPerson) {
+  for (const auto& [wrong, part] : std::vector<std::pair<std::string, std::string>>{
+           {"{", "parse error at line 1"},
+           {"{}", "key 'id' not found"},
+           {R"({"id": 1, "case": "c", "directory": "d"})", "type must be string"}}) {
+    try {
+      read_order(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const std::invalid_argument& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(said.find("json.exception"), std::string::npos) << said;
+      EXPECT_NE(said.find(part), std::string::npos) << said;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace granvof::compare

@@ -5,6 +5,7 @@ import signal
 import stat
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import h5py
@@ -172,3 +173,38 @@ def test_nothing_else_than_a_file_is_replaced(tmp_path, make):
     with pytest.raises(OSError):
         granvof_files.write_json(path, {})
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_pipe_that_takes_a_files_name_meanwhile(tmp_path):
+    """Whatever the moment: what was opened is asked what it is, and nobody is waited for."""
+    path, stop = tmp_path / "given", threading.Event()
+
+    def swap():
+        while not stop.is_set():
+            for put in (lambda draft: draft.write_text("{}"), os.mkfifo):
+                put(tmp_path / "draft")
+                os.replace(tmp_path / "draft", path)
+
+    path.write_text("{}")
+    swapping = threading.Thread(target=swap)
+    swapping.start()
+    ends = set()
+    try:
+        for _ in range(3000):
+            try:
+                ends.add(granvof_files.text_of(path))
+            except granvof_files.NotAFile:
+                ends.add("refused")
+    finally:
+        stop.set()
+        swapping.join()
+    assert ends == {"{}", "refused"}
+
+
+def test_a_file_with_holes_that_no_memory_holds(tmp_path):
+    path = tmp_path / "given"
+    path.write_text("{}")
+    os.truncate(path, 1 << 40)
+    for reader in (granvof_files.text_of, granvof_files.bytes_of, granvof_files.json_of, granvof_files.opened):
+        with pytest.raises(granvof_files.NotAFile, match="1099511627776 bytes"):
+            reader(path)

@@ -108,6 +108,16 @@ def test_figures_that_the_readme_no_longer_states_are_said(verify, tmp_path, cap
     assert f"state other results in 1 places, as {kept['id']}: kept " in run_with("stale")
 
 
+def test_results_of_before_do_not_stand_for_those_of_now(verify, tmp_path):
+    """It is ended before it has judged anything, here by its runs: no page of runs that are gone."""
+    for name in ("results.json", "report.html"):
+        (tmp_path / "out/verify").mkdir(parents=True, exist_ok=True)
+        (tmp_path / "out/verify" / name).write_text("of before")
+    assert verify.main(stand_ins(tmp_path, check_code=2)) == 2
+    assert not (tmp_path / "out/verify/results.json").exists() and not (tmp_path / "out/verify/report.html").exists()
+    assert (tmp_path / "out/verify-before/results.json").read_text() == "of before"
+
+
 def test_an_unexpected_verdict_is_the_exit_code(verify, tmp_path):
     assert verify.main(stand_ins(tmp_path, check_code=1)) == 1
 

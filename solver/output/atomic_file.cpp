@@ -8,12 +8,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "solver/output/open_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof {
 
 namespace {
 
+constexpr std::uintmax_t largest_whole = std::uintmax_t{1} << 31U;  // [bytes] of a file read at once
 constexpr std::size_t read_block = std::size_t{1} << 16U;
 
 std::string reason(int error) {
@@ -131,10 +133,8 @@ void require_own_file(const std::filesystem::path& path, std::string_view beginn
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  require_file(path);
-  // Not to wait, should a pipe have taken its name since.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.valid()) throw OutputError("read", path, reason(errno));
+  // A file with holes takes no room where it lies, and all of it here.
+  const Descriptor file = open_file(path, largest_whole);
   std::string content;
   try {
     for (std::vector<char> block(read_block);;) {

@@ -1,10 +1,12 @@
 #include "solver/output/checkpoint.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/hdf5_file.hpp"
@@ -75,9 +77,9 @@ void check_origin(const hdf5::Handle& file, const Scene& scene, const std::files
   const auto has = hdf5::read_double_array_attribute(file, "cells");
   const auto& wants = scene.grid.cells;
   if (has != std::vector<double>(wants.begin(), wants.end())) {
-    throw OutputError("resume from", path,
-                      fmt::format("it has {} x {} x {} cells, this case has {} x {} x {}", has.at(0),
-                                  has.at(1), has.at(2), wants[0], wants[1], wants[2]));
+    throw OutputError(
+        "resume from", path,
+        fmt::format("it has {} cells, this case has {}", fmt::join(has, " x "), fmt::join(wants, " x ")));
   }
 }
 
@@ -93,7 +95,10 @@ const std::vector<double>& Checkpoint::array(const std::string& name, std::size_
 }
 
 double Checkpoint::scalar(const std::string& name) const {
-  return look_up(scalars, name, file, "scalar");
+  const double value = look_up(scalars, name, file, "scalar");
+  if (std::isnan(value))
+    throw OutputError("resume from", file, fmt::format("scalar '{}' is no number", name));
+  return value;
 }
 
 std::int64_t Checkpoint::counter(const std::string& name) const {
@@ -120,6 +125,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Scene& scene
     Checkpoint state;
     state.file = path;
     state.time = hdf5::read_double_attribute(file, "time");
+    if (!(std::isfinite(state.time) && state.time >= 0.0))
+      throw OutputError("resume from", path, fmt::format("its time is {} s", state.time));
     state.rows = {hdf5::read_integer_attribute(file, "rows"),
                   hdf5::read_string_attribute(file, "rows_sha256")};
     const auto scalars = hdf5::open_group(file, "scalars");

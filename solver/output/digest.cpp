@@ -2,15 +2,15 @@
 
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <unistd.h>
 
-#include "solver/output/atomic_file.hpp"
+#include "solver/output/open_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof {
@@ -50,16 +50,16 @@ std::string Digest::hex() const {
 }
 
 std::string digest_of_file(const std::filesystem::path& path) {
-  require_file(path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw OutputError("read", path, std::generic_category().message(errno));
+  const Descriptor file = open_file(path);
   Digest digest;
-  std::vector<char> block(std::size_t{1} << 20U);
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
-    digest.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  if (file.bad()) throw OutputError("read", path, std::generic_category().message(errno));
-  return digest.hex();
+  for (std::vector<char> block(std::size_t{1} << 20U);;) {
+    const ssize_t size = ::read(file.get(), block.data(), block.size());
+    if (size == 0) return digest.hex();
+    if (size > 0)
+      digest.add({block.data(), static_cast<std::size_t>(size)});
+    else if (errno != EINTR)
+      throw OutputError("read", path, std::generic_category().message(errno));
+  }
 }
 
 }  // namespace granvof

@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/build_info.hpp"
@@ -118,7 +119,8 @@ void remove_pieces(const fs::path& folder, std::size_t first) {
     fs::remove(file, error);
     if (error) throw OutputError("replace", file, error.message());
   }
-  fs::remove(folder, error);  // fails where something is left, and should
+  // Fails where something is left, and should; and on a link to a folder elsewhere, which is the user's.
+  ::rmdir(folder.c_str());
 }
 
 }  // namespace

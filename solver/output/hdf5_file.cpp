@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/open_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof::hdf5 {
@@ -115,18 +117,27 @@ std::string content_of(const Handle& file) {
   return content;
 }
 
+// Without HDF5's own locks, which not every file system has: what is written is written by one program, into
+// a file of its own, and whole when it gets its name.
+Handle without_locks() {
+  Handle access(checked(H5Pcreate(H5P_FILE_ACCESS), "property list"), H5Pclose);
+  checked(H5Pset_file_locking(access, false, true), "file locking");
+  return access;
+}
+
 Handle open_for_writing(const std::filesystem::path& path) {
   require_file(path, "write");
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDWR, without_locks());
   if (id < 0) throw OutputError("write", path, last_error());
   return {id, H5Fclose};
 }
 
 Handle open_for_reading(const std::filesystem::path& path) {
-  require_file(path);
-  std::error_code none;
-  if (!std::filesystem::exists(path, none)) throw OutputError("read", path, "there is no such file");
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  // The library opens by name, and would wait for a pipe: it is given the name of what is open.
+  const Descriptor file = open_file(path);
+  const std::string name = fmt::format("/proc/self/fd/{}", file.get());
+  const bool is_named = ::access(name.c_str(), F_OK) == 0;  // not where /proc is not there
+  const hid_t id = H5Fopen(is_named ? name.c_str() : path.c_str(), H5F_ACC_RDONLY, without_locks());
   if (id < 0) throw OutputError("read", path, last_error());
   return {id, H5Fclose};
 }

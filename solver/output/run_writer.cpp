@@ -74,7 +74,11 @@ Descriptor lock_directory(const fs::path& directory) {
   if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
     throw OutputError(
         "write to", directory,
-        errno == EWOULDBLOCK ? "another run is writing there" : std::generic_category().message(errno));
+        errno == EWOULDBLOCK
+            ? "another run is writing there"
+            : fmt::format("two runs could write there at once, its file system gives no locks ({}); give a "
+                          "directory on another",
+                          std::generic_category().message(errno)));
   }
   return lock;
 }

@@ -3,9 +3,11 @@
 
 namespace granvof {
 
-// Opens /dev/null on every standard stream that is closed: its number would be that of the next file opened,
-// and messages would go into a result. A file that may not grow (ulimit -f), standard output above all, shows
-// as a failed write and does not end the program (SIGXFSZ). The first call of a main().
+// A file that may not grow (ulimit -f), standard output above all, shows as a failed write and does not end
+// the program (SIGXFSZ). The first call of a main(). A program that calls it has /dev/null on every standard
+// stream that its caller has closed, from before its libraries begin on: the stream's number would be that of
+// the next file opened, and messages would go into a result. What is then read or written there fails, but
+// for messages.
 void prepare_standard_streams();
 
 // Throws std::runtime_error where something of what went to stdout was not written: what nobody could read

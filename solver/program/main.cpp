@@ -18,6 +18,7 @@
 #include "solver/output/build_info.hpp"
 #include "solver/output/empty_values.hpp"
 #include "solver/output/output_error.hpp"
+#include "solver/output/own_stack.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/parallel/processes.hpp"
 #include "solver/plausibility/plausibility.hpp"
@@ -238,6 +239,7 @@ int say(const std::exception& error, int code) {
 
 int main(int argc, char** argv) {
   granvof::prepare_standard_streams();
+  if (!granvof::has_stack("granvof")) return bad_input;
   send_messages_to_stderr();
   // Of several processes the lowest speaks.
   std::unique_ptr<granvof::Communicator> processes;

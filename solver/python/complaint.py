@@ -9,6 +9,7 @@ import sys
 import unicodedata
 from pathlib import Path
 
+LEAST_DESCRIPTORS = 16  # beyond those that are open: a file and its folder, the two ends of what is read of another program
 LONGEST = 1500  # characters; it holds the name of a directory
 ESCAPED = ("Cc", "Cf", "Cs", "Zl", "Zp")  # controls, marks of direction, bytes that are no text, ends of lines and paragraphs
 
@@ -30,16 +31,45 @@ def complain(text):
     print(printable(str(text)), file=sys.stderr, flush=True)
 
 
+def fill_streams():
+    """A standard stream that the caller has closed: its number would be that of the next file opened. /dev/null, the other way
+    round than the stream is used: what is read or printed there fails, messages are lost (as solver/output/standard_streams.hpp)."""
+    for number, way in enumerate((os.O_WRONLY, os.O_RDONLY, os.O_RDWR)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, way), True)
+    if sys.stdout is None:
+        sys.stdout = open(1, "w", closefd=False)
+    if sys.stderr is None:
+        sys.stderr = open(2, "w", closefd=False)
+
+
+def has_descriptors(least=LEAST_DESCRIPTORS):
+    """Whether so many files more can be opened; where not, that is said."""
+    held = []
+    try:
+        for _ in range(least):
+            held.append(os.open(os.devnull, os.O_RDONLY))
+    except OSError as error:
+        complain(f"{Path(sys.argv[0]).name}: {len(held)} files can be opened, needed: {least} (ulimit -n): {error.strerror}")
+    for number in held:
+        os.close(number)
+    return len(held) == least
+
+
 def ended(main, *arguments):
     """Exit code of a script: what `main` gives. Where its standard output cannot be written it is 1, after a line; where nobody
-    reads it any more (`| head`), that of SIGPIPE, without a word."""
+    reads it any more (`| head`), that of SIGPIPE, without a word. 2, after a line, where it may open too few files."""
+    fill_streams()
+    if not has_descriptors():
+        return 2
     try:
         try:
             code = main(*arguments)
         except SystemExit as end:  # argparse has helped
             code = end.code
-        if sys.stdout is not None:  # closed by the caller
-            sys.stdout.flush()
+        sys.stdout.flush()
         return code
     except OSError as error:
         why = not_printable() if error.filename is None else None

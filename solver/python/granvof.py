@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from granvof_files import OF_READING, fields_of, is_there, json_of, required, values_of
+from granvof_files import OF_READING, fields_of, is_there, json_of, opened, values_of
 
 try:
     import pandas
@@ -81,7 +81,7 @@ def read_facts(path):
 def read_series(path):
     """Columns by their names without units, and the units; an empty field is NaN."""
     try:
-        with open(required(path), newline="", encoding="utf-8") as file:
+        with opened(path, newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))
         heads = [re.fullmatch(r"(.*\S) \[(.*)\]", head).groups() for head in rows[0]]
         values = np.array([[float(text) if text else np.nan for text in row] for row in rows[1:]], dtype=float)

@@ -3,6 +3,7 @@ device may have no end. Writes results whole or not at all."""
 
 import contextlib
 import csv
+import errno
 import json
 import os
 import re
@@ -12,31 +13,67 @@ from pathlib import Path
 
 
 class NotAFile(OSError):
-    """A name that is no regular file, or an HDF5 file that leads to one; says which, and what it is."""
+    """A name that is no regular file, or one too large to be ours, or an HDF5 file that leads to one; says which, and what it is."""
 
 
 # What reading a file that others wrote may raise: no such values, of another kind or shape, too many of them.
 OF_READING = (OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RuntimeError, MemoryError, csv.Error)
 
+MOST_BYTES = 1 << 31  # of a file read at once, as solver/output/atomic_file.cpp: one with holes takes no room where it lies
 KINDS = ((stat.S_ISDIR, "a directory"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"), (stat.S_ISCHR, "a device"),
          (stat.S_ISBLK, "a device"))
 
 
+def _name_of(mode):
+    return next((name for of_kind, name in KINDS if of_kind(mode)), "something else")
+
+
 def required(path):
-    """The path, as it was given. NotAFile where something else than a regular file has that name; where nothing has it,
-    FileNotFoundError or what else the system says."""
+    """The path, as it was given, for libraries that open by name (others take opened()). NotAFile where something else than a
+    regular file has that name; where nothing has it, FileNotFoundError or what else the system says."""
     mode = os.stat(path).st_mode
-    for of_kind, name in KINDS:
-        if of_kind(mode):
-            raise NotAFile(f"it is {name}, not a file")
+    if not stat.S_ISREG(mode):
+        raise NotAFile(f"it is {_name_of(mode)}, not a file")
     return path
+
+
+def _open_regular(path, flags):
+    """For open(): waits for nobody, and what a name stands for is asked of what was opened: it may be another's a moment later."""
+    descriptor = os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
+    found = os.fstat(descriptor)
+    if stat.S_ISREG(found.st_mode) and found.st_size <= MOST_BYTES:
+        return descriptor
+    os.close(descriptor)
+    if stat.S_ISREG(found.st_mode):
+        raise NotAFile(f"it has {found.st_size} bytes, more than {MOST_BYTES}")
+    raise NotAFile(f"it is {_name_of(found.st_mode)}, not a file")
+
+
+def opened(path, mode="r", **form):
+    """open() for reading, of a regular file and nothing else; raises as required()."""
+    try:
+        return open(path, mode, opener=_open_regular, **form)
+    except OSError as error:
+        if error.errno == errno.ENXIO:  # a socket
+            required(path)
+        raise
+
+
+def text_of(path, encoding="utf-8"):
+    with opened(path, encoding=encoding) as file:
+        return file.read()
+
+
+def bytes_of(path):
+    with opened(path, "rb") as file:
+        return file.read()
 
 
 def no_program(path, made_by="`make build` builds it"):
     """Why a file is no program that can be started, in a sentence; empty where it is one."""
     path = Path(path)
     try:
-        with open(required(path), "rb") as file:
+        with opened(path, "rb") as file:
             begins = file.read(4)
     except FileNotFoundError:
         return f"{path} is missing; {made_by}"
@@ -49,7 +86,7 @@ def no_program(path, made_by="`make build` builds it"):
 
 def json_of(path):
     """What a JSON file holds; raises as required() and the parser do."""
-    return json_in(required(Path(path)).read_text(encoding="utf-8"))
+    return json_in(text_of(path))
 
 
 HALF_CHARACTER = re.compile(r"\\u[dD][89a-fA-F]")  # of two, or alone, which is none and cannot be written
@@ -73,7 +110,7 @@ KEYS = re.compile(r"[\w. \t-]+")
 
 def toml_of(path):
     """What a TOML file holds; raises as required() and the parser do."""
-    return toml_in(required(Path(path)).read_text(encoding="utf-8"))
+    return toml_in(text_of(path))
 
 
 def toml_in(text):
@@ -120,13 +157,13 @@ def fields_of(path):
     import h5py  # here: not every reader of files has it
 
     path = Path(path)
-    with h5py.File(required(path), "r") as file:
+    with h5py.File(required(path), "r", locking=False) as file:
         for name in file:
             link = file.get(name, getlink=True)
             if isinstance(link, h5py.ExternalLink):
                 if link.filename != f"fields/{name}.h5":
                     raise NotAFile(f"{name} links to {link.filename}, allowed: fields/{name}.h5")
-                with h5py.File(required(path.parent / link.filename), "r") as piece:
+                with h5py.File(required(path.parent / link.filename), "r", locking=False) as piece:
                     _require_inside(piece, h5py)
             else:
                 _require_member_inside(file, name, h5py)

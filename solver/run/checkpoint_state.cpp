@@ -4,8 +4,15 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "solver/output/output_error.hpp"
+#include "solver/scene/printable.hpp"
+
 namespace granvof {
 namespace {
+
+constexpr std::size_t longest_name = 80;  // bytes, in a message
 
 template <typename Counters, typename Visit>
 void for_each_counter(Counters& c, Visit&& visit) {
@@ -15,6 +22,16 @@ void for_each_counter(Counters& c, Visit&& visit) {
   visit("linear", c.linear);
   visit("friction", c.friction);
   visit("unconverged_friction", c.unconverged_friction);
+}
+
+// What this program would not write it does not know: a state that lacks it goes on as another.
+template <typename Saved, typename Known>
+void refuse_unknown(const Saved& saved, const Known& known, const char* kind, const Checkpoint& from) {
+  for (const auto& [name, value] : saved)
+    if (!known.contains(name))
+      throw OutputError("resume from", from.file,
+                        fmt::format("it has a {} '{}', which this program does not know", kind,
+                                    case_file::printable(name, longest_name)));
 }
 
 }  // namespace
@@ -57,6 +74,10 @@ void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& c
   monitors.restore({saved.scalar("solid_volume"), saved.scalar("liquid_volume"), saved.scalar("liquid_left"),
                     saved.scalar("solid_left"), saved.scalar("solid_error"), saved.scalar("liquid_error"),
                     saved.scalar("solid_max"), saved.scalar("solid_min")});
+  const CheckpointView known = checkpoint_view(grid, s, control, monitors, counters, {});
+  refuse_unknown(saved.arrays, known.arrays, "array", saved);
+  refuse_unknown(saved.scalars, known.scalars, "scalar", saved);
+  refuse_unknown(saved.counters, known.counters, "counter", saved);
 }
 
 }  // namespace granvof

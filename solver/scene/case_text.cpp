@@ -1,18 +1,22 @@
 #include "solver/scene/case_text.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <cerrno>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
+#include <unistd.h>
 
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/key_parts.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/printable.hpp"
+#include "solver/scene/regular_file.hpp"
 #include "solver/scene/toml_text.hpp"
 
 namespace granvof::case_file {
@@ -166,19 +170,23 @@ std::string read_file(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& why) {
     throw CaseError(fmt::format("{}: {}, allowed: a case file (TOML)", Place{file.string()}.text(), why));
   };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (std::filesystem::is_directory(status)) refuse("is a directory");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse("is no regular file");
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (!error && size > largest_file) refuse(fmt::format("has {} bytes, more than {}", size, largest_file));
-  std::ifstream in(file, std::ios::binary);
-  if (error || !in) refuse("cannot be read");
-  std::string content(size, '\0');
-  in.read(content.data(), static_cast<std::streamsize>(size));
-  if (in.bad()) refuse("cannot be read");
-  content.resize(static_cast<std::size_t>(in.gcount()));
+  const RegularFile opened = open_regular(file);
+  if (!opened.fault.empty()) refuse(fmt::format("cannot be read ({})", opened.fault));
+  const std::unique_ptr<const int, void (*)(const int*)> closing(&opened.descriptor,
+                                                                 [](const int* fd) { ::close(*fd); });
+  if (opened.size > largest_file)
+    refuse(fmt::format("has {} bytes, more than {}", opened.size, largest_file));
+  std::string content(opened.size, '\0');
+  std::size_t have = 0;
+  while (have < content.size()) {
+    const ssize_t got = ::read(opened.descriptor, content.data() + have, content.size() - have);
+    if (got == 0) break;
+    if (got > 0)
+      have += static_cast<std::size_t>(got);
+    else if (errno != EINTR)
+      refuse(fmt::format("cannot be read ({})", std::generic_category().message(errno)));
+  }
+  content.resize(have);
   return content;
 }
 

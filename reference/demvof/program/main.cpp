@@ -13,6 +13,7 @@
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "solver/output/empty_values.hpp"
+#include "solver/output/own_stack.hpp"
 #include "solver/output/standard_streams.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/scene/printable.hpp"
@@ -108,6 +109,7 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   granvof::prepare_standard_streams();
+  if (!granvof::has_stack("demvof")) return bad_input;
   return demvof::exit_code_of([&] {
     const int code = parse_and_run(argc, argv);
     granvof::require_stdout_written();

@@ -128,6 +128,23 @@ TEST(FieldsFile, JoinedResumedAndJoinedAgainIsTheSameToTheByte) {
   EXPECT_TRUE(read_file(directory.path() / "fields.h5") == joined);
 }
 
+// On another disk, say: it goes on through the link, which is the user's and stays.
+TEST(FieldsFile, AFolderOfInstantsMayBeALink) {
+  const auto scene = make_scene(2, {8, 6, 1}, {1.0, 1.0, 1.0});
+  const TemporaryDirectory directory, elsewhere;
+  const std::vector times{0.0, 1.0};
+  auto first = FieldsFile::create(directory.path(), scene);
+  for (const double t : times) first.append(numbered_fields(scene, t));
+  const auto folder = directory.path() / "fields", target = elsewhere.path() / "fields";
+  std::filesystem::copy(folder, target);
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_symlink(target, folder);
+  auto again = FieldsFile::resume(directory.path(), scene, times);
+  EXPECT_NO_THROW(again.check_still_there());
+  ASSERT_TRUE(again.join());
+  EXPECT_TRUE(std::filesystem::is_symlink(folder));
+}
+
 // What was written stands in the joined file in the end: an instant that cannot be read is not gone on from.
 TEST(FieldsFile, ADamagedInstantIsRefusedOnResumeLinkedOrJoined) {
   const auto scene = make_scene(2, {100, 100, 1}, {1.0, 1.0, 1.0});  // most of a file is compressed numbers

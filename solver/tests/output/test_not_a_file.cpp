@@ -1,7 +1,9 @@
 // What is no file is neither opened nor replaced, and an HDF5 file leads nowhere but to its own instants.
+#include <atomic>
 #include <fstream>
 #include <functional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/digest.hpp"
 #include "solver/output/fields_file.hpp"
+#include "solver/output/hdf5_file.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/series_file.hpp"
 #include "solver/tests/output/run_directory.hpp"
@@ -85,6 +88,51 @@ TEST_F(NotAFile, IsReadByNobody) {
     EXPECT_THROW(read_field_times(path), OutputError) << kind;
     EXPECT_THROW(read_fields(path, 0), OutputError) << kind;
   }
+}
+
+// What was opened is asked what it is: a pipe that takes the name of a file a moment later is not waited for.
+TEST_F(NotAFile, MayTakeAFilesNameMeanwhile) {
+  fs::create_directories(run);
+  write_linked();
+  const fs::path name = directory.path() / "given", draft = directory.path() / "draft";
+  std::atomic<bool> over = false;
+  fs::copy_file(run / "fields/t0000.h5", name);
+  std::thread other([&] {
+    while (!over) {
+      fs::copy_file(run / "fields/t0000.h5", draft);
+      fs::rename(draft, name);
+      ASSERT_EQ(::mkfifo(draft.c_str(), 0600), 0);
+      fs::rename(draft, name);
+    }
+  });
+  const hdf5::QuietErrors quiet;
+  int read = 0, refused = 0;
+  const auto ask = [&](const std::function<void()>& reader) {
+    try {
+      reader();
+      ++read;
+    } catch (const OutputError&) {
+      ++refused;
+    }
+  };
+  for (int attempt = 0; attempt < 300; ++attempt) {
+    ask([&] { read_file(name); });
+    ask([&] { digest_of_file(name); });
+    ask([&] { hdf5::open_for_reading(name); });
+  }
+  over = true;
+  other.join();
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(NotAFile, NorIsWhatNoMemoryHolds) {
+  fs::create_directories(run);
+  const fs::path path = run / "with holes";
+  std::ofstream(path) << "time [s]\n";
+  fs::resize_file(path, std::uintmax_t{1} << 40U);
+  EXPECT_NE(message_of<OutputError>([&] { read_file(path); }).find("1099511627776 bytes"), std::string::npos);
+  EXPECT_THROW(read_series(path), OutputError);
 }
 
 TEST_F(NotAFile, IsNotReachedThroughALink) {

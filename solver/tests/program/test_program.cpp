@@ -179,7 +179,7 @@ TEST_F(Program, RefusesBadCasesAndWritesNothing) {
   expect_refused("run " + shipped("s1") + " --set solid.friction=-0.4",
                  "--set: solid.friction: got -0.4, allowed: a number >= 0");
   expect_refused("check no-such-case.toml", "no-such-case.toml");
-  expect_refused("check /dev/zero", "/dev/zero: is no regular file");
+  expect_refused("check /dev/zero", "/dev/zero: cannot be read (it is a device or a pipe)");
   expect_refused("run " + shipped("s1") + " --out ''", "--out");
 }
 
@@ -231,6 +231,27 @@ TEST_F(Program, WarnsOnStderrWhateverBecomesOfStdout) {
   // with stderr closed as well, nothing of it gets into a result
   EXPECT_EQ(granvof("run " + shipped("canary-dry") + dense + " --out out <&- >&- 2>&-").code, 0);
   EXPECT_NE(record().find("\"state\": \"finished\""), std::string::npos);
+}
+
+// Nobody can read it: as on a full disk.
+TEST_F(Program, ResultsThatCannotBePrintedAreNoSuccess) {
+  for (const char* redirection : {" >/dev/full", " >&-", " <&- >&-"}) {
+    for (const char* command : {"check ", "restate "}) {
+      const Outcome outcome = granvof(command + shipped("canary-dry") + redirection);
+      EXPECT_EQ(outcome.code, 1) << command << redirection;
+      EXPECT_NE(outcome.err.find("granvof: cannot write to standard output"), std::string::npos)
+          << command << redirection << outcome.err;
+    }
+  }
+  EXPECT_EQ(granvof("check " + shipped("canary-dry") + " 2>&-").code, 0);
+}
+
+TEST_F(Program, RefusesAStackThatIsTooSmall) {
+  expect_refused("run " + shipped("canary-dry") + " --out out",
+                 "granvof: a stack of 512 kB (ulimit -s), needed: 1024", "ulimit -s 512 &&");
+  EXPECT_EQ(
+      granvof("run " + shipped("canary-dry") + dense + " --threads 2 --out out", "ulimit -s 1024 &&").code,
+      0);
 }
 
 TEST_F(Program, StopsAtItsWallClockLimitWithAnExitCodeOfItsOwn) {

@@ -1,6 +1,7 @@
 // Whole runs into a directory: how they end, what they leave, and that a resumed run is the same run.
 #include <algorithm>
 #include <csignal>
+#include <functional>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -312,6 +313,28 @@ TEST_F(RunCase, ANanEndsTheRunWithAReason) {
         << name << ": " << record["exit"]["reason"];
     for (const auto& row : read_series(path(name) / "series.csv").rows) EXPECT_LE(*row[0], 0.02 + 1e-12);
   }
+}
+
+// A state of a program that has a field more, of the same version and format: it would go on as another.
+TEST_F(RunCase, ACheckpointWithWhatIsNotKnownIsRefused) {
+  const Scene scene = column_scene({"time.end=0.02"}), longer = column_scene({"time.end=0.04"});
+  ASSERT_EQ(run_into(path("run"), scene), 0);
+  const auto file = path("run") / "checkpoint.h5";
+  const Checkpoint saved = read_checkpoint(file, scene);
+  CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows};
+  for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
+  const std::vector<double> values(8, 1.0);
+  for (auto add :
+       std::vector<std::function<void(CheckpointView&)>>{[&](CheckpointView& v) { v.arrays["new"] = values; },
+                                                         [](CheckpointView& v) { v.scalars["new"] = 1.0; },
+                                                         [](CheckpointView& v) { v.counters["new"] = 1; }}) {
+    CheckpointView other = view;
+    add(other);
+    write_checkpoint(file, scene, other);
+    EXPECT_THROW(run_into(path("run"), longer, true), OutputError);
+  }
+  write_checkpoint(file, scene, view);
+  EXPECT_EQ(run_into(path("run"), longer, true), 0);
 }
 
 TEST_F(RunCase, RefusedStepsAreRetriedShorter) {

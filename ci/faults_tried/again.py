@@ -1,0 +1,62 @@
+"""Programs that take long and start others, ended in their midst and started again: the same results, and none of before."""
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+from faults_tried.bench import TableError, told_of_our_end
+from faults_tried.orphans import END, as_from_a_terminal, processes_of, wait_until
+
+LONG = 900.0  # seconds
+
+
+def result_of(place, name):
+    """The bytes of a result; None where it is not there. Places in them are not the same twice."""
+    path = place / name
+    return path.read_bytes().replace(str(place).encode(), b"") if path.exists() else None
+
+
+def ended_after(command, place, root, seconds, number):
+    """Starts a command, ends it after so many seconds, and waits for all that it has started."""
+    with open(place / "said", "w") as said:
+        running = subprocess.Popen([str(part) for part in command], cwd=root, stdin=subprocess.DEVNULL, stdout=said, stderr=said,
+                                   preexec_fn=told_of_our_end(as_from_a_terminal))
+        try:
+            running.wait(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            running.send_signal(number)
+        running.wait()
+    return wait_until(lambda: not processes_of(place), END)
+
+
+def begun_again(bench, entry):
+    """Killed at a random moment, over the results of before, and started again: what stands there meanwhile is none of before, and in
+    the end it is what a call that was let alone leaves."""
+    first = bench.place()
+    begun = time.monotonic()
+    whole = bench.call(bench.filled(entry["command"], work=first), patience=LONG)
+    length = time.monotonic() - begun
+    result = result_of(first, entry["result"])
+    if whole is None or whole.returncode != 0 or result is None:
+        raise TableError(f"{' '.join(entry['command'])}: exit code {whole and whole.returncode}: {whole and (whole.stdout + whole.stderr)[-200:]!r}")
+    for number in bench.some(range(entry["times"]), entry["sample"]):
+        place = bench.place()
+        if over_old := number % 2 == 1:
+            shutil.copytree(first, place, dirs_exist_ok=True)
+        name = ("KILL", "TERM", "INT")[number % 3]
+        started = time.time_ns()
+        command = bench.filled(entry["command"], work=place)
+        why = "" if ended_after(command, place, bench.root, bench.chance.uniform(0.1, 1.0) * length, getattr(signal, "SIG" + name)) else "something was left running"
+        path = place / entry["result"]
+        if not why and over_old and path.exists() and os.stat(path).st_mtime_ns < started and entry.get("replaces", True):
+            begun_it = any(part.stat().st_mtime_ns > started for part in (place / "out/runs").rglob("*"))
+            why = "the results of before stand there" if begun_it else ""
+        ended = bench.call([*command, *(entry.get("again", []) if number % 4 > 1 else [])], patience=LONG)
+        if not why and (ended is None or ended.returncode != 0):
+            why = f"started again: exit code {ended and ended.returncode}: {ended and (ended.stdout + ended.stderr)[-200:]!r}"
+        if not why and result_of(place, entry["result"]) != result:
+            why = f"other results in {entry['result']}"
+        yield f"{name} to {' '.join(entry['command'][:2])}, try {number + 1}", why
+        bench.drop(place / "any")
