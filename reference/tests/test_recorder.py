@@ -211,6 +211,18 @@ def test_a_chute_has_no_fields_and_its_own_place(tmp_path):
     assert json.loads((folder / "record.json").read_text())["command"].startswith("demvof chute")
 
 
+def test_element_tests_have_no_fields_and_their_own_place(tmp_path):
+    tests = recorder.Run("s1", 2, element=True)
+    assert tests.arguments == ["element", "cases/s1.toml", "--seed", "2"]
+    directory = finished_run(tmp_path / "run", command=tests.command)
+    assert recorder.run_of(directory) == (tests, "solver's")
+    (directory / "fields.h5").unlink()
+    state_what_was_written(directory)
+    assert recorder.make_record(tests, directory, "abc", tmp_path) == tmp_path / "element/s1/seed2"
+    with pytest.raises(recorder.RecordError, match="a chute or element tests"):
+        recorder.Run("s1", 1, chute=True, element=True)
+
+
 def test_a_missing_program_is_an_error_that_says_what_to_do(tmp_path):
     ended = subprocess.run([REFERENCE / "record", "--build-dir", tmp_path], capture_output=True, text=True)
     assert ended.returncode == 2

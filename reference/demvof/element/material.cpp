@@ -1,0 +1,88 @@
+#include "reference/demvof/element/material.hpp"
+
+#include <fmt/format.h>
+
+#include "solver/closures/contact_pressure.hpp"
+#include "solver/closures/restitution.hpp"
+
+namespace demvof {
+
+namespace {
+
+std::string row(const char* key, double value, int digits, const Measured& measured,
+                const std::string& note) {
+  return fmt::format("{} = {:.{}f}  # {}+- {:.{}f}\n", key, value, digits, note, measured.band, digits);
+}
+
+std::string number(const Measured& measured) {
+  return fmt::format("{:.3f} +- {:.3f}", measured.value, measured.band);
+}
+
+}  // namespace
+
+double touching_fraction(const granvof::Contact& contact, double solid_fraction, double load) {
+  double none = solid_fraction, too_much = 0.0;  // of the pressure at `solid_fraction`
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (none + too_much);
+    (granvof::closures::elastic_pressure(solid_fraction, contact, middle).value < load ? none : too_much) =
+        middle;
+  }
+  return none;
+}
+
+Measured critical_packing(const ChuteResult& chute, double& load) {
+  std::vector<double> inertia, packing;
+  double sum = 0.0;
+  for (const ChutePoint& point : chute.points) {
+    if (point.friction.inertial_number > slow_flow) continue;
+    inertia.push_back(point.friction.inertial_number);
+    packing.push_back(point.solid_fraction);
+    sum += point.load;
+  }
+  const Measured critical = intercept_of(inertia, packing);
+  load = sum / static_cast<double>(packing.size());
+  return critical;
+}
+
+std::string material_text(const granvof::Scene& scene, const ElementTests& t) {
+  const granvof::Contact& c = scene.contact;
+  const granvof::ReferenceSettings& r = *scene.reference;
+  const double loosest = touching_fraction(c, t.loosest.solid_fraction.value, t.loosest.load);
+  const double critical = touching_fraction(c, t.critical.value, t.critical_load);
+  std::string text = fmt::format(
+      "# Beads of {} ({:g} mm, {:g} kg/m3, contacts of friction {:g} and restitution {:g}), measured by "
+      "`demvof "
+      "element`\n"
+      "# in dry tests of their own. Not a case: one takes it over with `base`, beside its own file. Bands "
+      "are twice the\n"
+      "# standard error.\n"
+      "#\n"
+      "# mu(I): {} windows on a rough chute, rms {:.3f}; rest at {} degrees, flows again at {}.\n"
+      "# Packings: at rest {} at the loosest, {} without friction; {} in slow flow. The law takes the\n"
+      "# packing at which grains touch: what (13) gives under the load of each test is taken off. What flow "
+      "dilates to,\n"
+      "# (15), and the packing that is never passed keep the case's distances: not measured.\n"
+      "# Not keys: restitution of smooth spheres that cool alike {} (model.frictional_restitution has "
+      "{:.3f}),\n"
+      "# friction on a plane wall {}.\n",
+      scene.name, 1e3 * scene.solid.diameter * r.coarse_graining, scene.solid.density, r.bead_friction,
+      r.bead_restitution, t.chute.points.size(), t.friction.rms,
+      t.chute.stopped_at ? fmt::format("{:g}", *t.chute.stopped_at) : "no slope above the last",
+      t.chute.started_at ? fmt::format("{:g}", *t.chute.started_at) : "none tried",
+      number(t.loosest.solid_fraction), number(t.densest.solid_fraction), number(t.critical),
+      number(t.restitution), granvof::closures::frictional_restitution(r.bead_restitution, r.bead_friction),
+      t.wall ? number(*t.wall) : "none");
+  text += "\n[solid]\n";
+  text += row("friction", t.friction.law.at_rest, 3, {0.0, t.friction.band.at_rest}, "mu_s, ");
+  text += "\n[contact]\n";
+  text += row("fast_friction", t.friction.law.limit, 3, {0.0, t.friction.band.limit}, "mu_2, ");
+  text += row("inertial_number", t.friction.law.scale, 3, {0.0, t.friction.band.scale}, "I_0, ");
+  text += row("solid_fraction_min", loosest, 4, t.loosest.solid_fraction, "");
+  text += row("critical_solid_fraction", critical, 4, t.critical, "");
+  text +=
+      fmt::format("dense_solid_fraction = {:.4f}\n", loosest + c.dense_solid_fraction - c.solid_fraction_min);
+  text += fmt::format("solid_fraction_max = {:.4f}\n", loosest + c.solid_fraction_max - c.solid_fraction_min);
+  return text;
+}
+
+}  // namespace demvof
