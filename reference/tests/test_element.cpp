@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/demvof/element/cooling.hpp"
+#include "reference/demvof/element/first_flow.hpp"
 #include "reference/demvof/element/material.hpp"
 #include "reference/demvof/element/wall_friction.hpp"
 #include "reference/tests/small_case.hpp"
@@ -39,6 +40,8 @@ demvof::ElementTests made_up() {
   t.friction.band = {0.01, 0.04, 0.07};
   t.loosest = {{0.586, 0.002}, 100.0};
   t.densest = {{0.64, 0.002}, 100.0};
+  t.first.push_back({19.0, {}, {}});
+  t.first_friction.law = {0.35, 0.7, 0.4};
   t.critical = demvof::critical_packing(t.chute, t.critical_load);
   t.restitution = {0.72, 0.01};
   t.chute.stopped_at = 16.0;
@@ -85,6 +88,48 @@ TEST(Material, TheCriticalPackingIsThatOfSlowFlow) {
   EXPECT_NEAR(load, 80.0, 1e-9);
 }
 
+// Windows before the packing breaks and the chute's slow ones are not asked; its fast ones are.
+TEST(Material, FrictionOfFirstStrainIsItsOwnWhereItHasWindows) {
+  const demvof::FrictionLaw first{0.36, 0.7, 0.4}, later{0.28, 0.6, 0.3};
+  demvof::FirstFlow flow;
+  demvof::ChuteResult chute;
+  const auto point = [](double inertia, double friction) {
+    demvof::ChutePoint p;
+    p.friction = {inertia, friction};
+    return p;
+  };
+  for (int n = 1; n <= 14; ++n) {
+    const double inertia = 0.01 * n;
+    flow.points.push_back(point(inertia, n == 1 ? 0.6 : first(inertia)));
+    flow.strain.push_back(n == 1 ? 0.1 : 0.4 * n);
+    chute.points.push_back(point(inertia, later(inertia)));
+    chute.points.push_back(point(0.15 + inertia, first(0.15 + inertia)));
+  }
+  const demvof::FrictionFit fit = demvof::fit_of_first({flow}, chute);
+  EXPECT_NEAR(fit.law.at_rest, first.at_rest, 1e-3);
+  EXPECT_NEAR(fit.law.limit, first.limit, 1e-2);
+  EXPECT_LT(fit.rms, 1e-4);
+}
+
+TEST(FirstFlow, AFreshLayerStartsAtASteeperSlopeThanItStopsAt) {
+  demvof::LayerSettings s = small_layer();
+  demvof::ContactLaw rough = s.law;
+  rough.bead_friction = 1.0;
+  rough.rolling_friction = 0.2;
+  const demvof::FirstFlow flow = demvof::first_flow(s, rough);
+  ASSERT_TRUE(flow.started_at.has_value());
+  EXPECT_GT(*flow.started_at, 16.5);
+  EXPECT_LT(*flow.started_at, 25.0);
+  ASSERT_GE(flow.points.size(), 5U);
+  ASSERT_EQ(flow.points.size(), flow.strain.size());
+  EXPECT_GE(flow.strain.back(), demvof::largest_strain);
+  for (std::size_t p = 0; p < flow.points.size(); ++p) {
+    if (flow.strain[p] < demvof::least_strain) continue;
+    EXPECT_GT(flow.points[p].friction.friction, 0.3);
+    EXPECT_LT(flow.points[p].friction.friction, 0.5);
+  }
+}
+
 TEST(Material, ACaseTakesTheFileOverWithBase) {
   const granvof::test::TemporaryDirectory directory;
   const granvof::Scene scene = demvof::test::small();
@@ -104,6 +149,14 @@ TEST(Material, ACaseTakesTheFileOverWithBase) {
               5e-5);
   EXPECT_NEAR(last.contact.solid_fraction_max - last.contact.solid_fraction_min, 0.06, 1e-4);
   EXPECT_NEAR(last.contact.dense_solid_fraction - last.contact.solid_fraction_min, 0.03, 1e-4);
+  std::ofstream(directory.path() / "first-strain.toml") << demvof::first_strain_text(scene, tests);
+  std::ofstream(directory.path() / "fresh.toml")
+      << "base = [\"last.toml\", \"first-strain.toml\"]\n[scene]\nname "
+         "= \"fresh\"\n";
+  const granvof::Scene fresh = granvof::load_scene(directory.path() / "fresh.toml", {});
+  EXPECT_DOUBLE_EQ(fresh.solid.friction, 0.35);
+  EXPECT_DOUBLE_EQ(fresh.contact.fast_friction, 0.7);
+  EXPECT_EQ(fresh.contact.solid_fraction_min, last.contact.solid_fraction_min);
 }
 
 TEST(PackingAtRest, FrictionKeepsALayerLoose) {

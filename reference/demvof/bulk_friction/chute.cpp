@@ -17,9 +17,23 @@ constexpr double flows_again = 0.1;      // likewise: far above what a layer at 
 constexpr double step_of_start = 0.5;    // of the slope on the way up [degrees]
 constexpr double steepest_start = 40.0;  // [degrees]
 
-// Mean over the heights that count; nothing without flow. `acceleration` a bin [m/s2].
-std::optional<ChutePoint> point_of(const PeriodicLayer& layer, const Profile& now,
-                                   const std::vector<double>& acceleration, double slope) {
+// From rest upwards; half a stage a slope.
+std::optional<double> start_of(PeriodicLayer& layer, double from, int stage_steps) {
+  const LayerSettings& s = layer.settings();
+  const double flowing = flows_again * std::sqrt(s.gravity * s.diameter);
+  for (double slope = from; slope <= steepest_start; slope += step_of_start) {
+    layer.engine().set_gravity(s.gravity, slope);
+    layer.engine().run(stage_steps / 2);
+    granvof::throw_if_stopped();
+    if (rms_speed(layer.engine().state()) > flowing) return slope;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ChutePoint> chute_point(const PeriodicLayer& layer, const Profile& now,
+                                      const std::vector<double>& acceleration, double slope) {
   const LayerSettings& s = layer.settings();
   const double angle = slope * std::numbers::pi / 180.0, d = s.diameter;
   const double along = s.gravity * std::sin(angle), down = s.gravity * std::cos(angle);
@@ -52,20 +66,12 @@ std::optional<ChutePoint> point_of(const PeriodicLayer& layer, const Profile& no
   return point;
 }
 
-// From rest upwards; half a stage a slope.
-std::optional<double> start_of(PeriodicLayer& layer, double from, int stage_steps) {
-  const LayerSettings& s = layer.settings();
-  const double flowing = flows_again * std::sqrt(s.gravity * s.diameter);
-  for (double slope = from; slope <= steepest_start; slope += step_of_start) {
-    layer.engine().set_gravity(s.gravity, slope);
-    layer.engine().run(stage_steps / 2);
-    granvof::throw_if_stopped();
-    if (rms_speed(layer.engine().state()) > flowing) return slope;
-  }
-  return std::nullopt;
+std::vector<double> acceleration_between(const Profile& before, const Profile& after, double time) {
+  std::vector<double> acceleration(before.velocity.size());
+  for (std::size_t bin = 0; bin < acceleration.size(); ++bin)
+    acceleration[bin] = (after.velocity[bin] - before.velocity[bin]) / time;
+  return acceleration;
 }
-
-}  // namespace
 
 ChuteResult run_chute(const ChuteSettings& s) {
   PeriodicLayer layer(s);
@@ -85,11 +91,9 @@ ChuteResult run_chute(const ChuteSettings& s) {
       granvof::throw_if_stopped();
     }
     for (std::size_t w = 1; w + 1 < windows.size(); ++w) {
-      std::vector<double> acceleration(windows[w].velocity.size());
-      for (std::size_t bin = 0; bin < acceleration.size(); ++bin) {
-        acceleration[bin] = (windows[w + 1].velocity[bin] - windows[w - 1].velocity[bin]) / (2.0 * duration);
-      }
-      std::optional<ChutePoint> point = point_of(layer, windows[w], acceleration, slope);
+      const std::vector<double> acceleration =
+          acceleration_between(windows[w - 1], windows[w + 1], 2.0 * duration);
+      std::optional<ChutePoint> point = chute_point(layer, windows[w], acceleration, slope);
       if (!point || point->mean_speed < still) continue;
       point->time = begin + (static_cast<double>(w) + 0.5) * duration;
       result.points.push_back(*point);

@@ -42,6 +42,14 @@ struct ChuteResult {
   std::optional<double> started_at;   // first slope on the way up at whose end it flows [degrees]
 };
 
+// Change of the velocity of each bin over `time` [m/s2].
+std::vector<double> acceleration_between(const Profile& before, const Profile& after, double time);
+
+// Means of a window over the heights that count, but for its time; nothing without flow. `acceleration` a bin
+// [m/s2], slope [degrees].
+std::optional<ChutePoint> chute_point(const PeriodicLayer& layer, const Profile& now,
+                                      const std::vector<double>& acceleration, double slope);
+
 // Throws std::runtime_error when a bead is lost.
 ChuteResult run_chute(const ChuteSettings& settings);
 

@@ -15,9 +15,10 @@ namespace {
 constexpr double gas_fraction = 0.2;   // [-]
 constexpr double height = 20.0;        // between the planes, in diameters
 constexpr double first_speed = 1.0;    // sqrt(Theta), in sqrt(g d)
-constexpr int repeats = 3;             // seeds
-constexpr double until_spun_up = 8.0;  // collisions of a bead before the line begins
-constexpr double collisions = 25.0;    // of a bead, at its end
+constexpr int repeats = 5;             // seeds
+constexpr double until_spun_up = 4.0;  // collisions of a bead before the line begins
+// At its end: later neighbours move alike, which no longer dissipates.
+constexpr double collisions = 12.0;
 constexpr double samples_per_collision = 5.0;
 
 double contact_value() {  // g0 of Carnahan and Starling

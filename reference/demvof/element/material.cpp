@@ -14,6 +14,20 @@ std::string row(const char* key, double value, int digits, const Measured& measu
   return fmt::format("{} = {:.{}f}  # {}+- {:.{}f}\n", key, value, digits, note, measured.band, digits);
 }
 
+std::string friction_rows(const FrictionFit& fit) {
+  return "\n[solid]\n" + row("friction", fit.law.at_rest, 3, {0.0, fit.band.at_rest}, "mu_s, ") +
+         "\n[contact]\n" + row("fast_friction", fit.law.limit, 3, {0.0, fit.band.limit}, "mu_2, ") +
+         row("inertial_number", fit.law.scale, 3, {0.0, fit.band.scale}, "I_0, ");
+}
+
+std::string angles_of(const std::vector<FirstFlow>& first) {
+  std::string text;
+  for (const FirstFlow& flow : first)
+    text +=
+        (text.empty() ? "" : " and ") + (flow.started_at ? fmt::format("{:g}", *flow.started_at) : "none");
+  return text;
+}
+
 std::string number(const Measured& measured) {
   return fmt::format("{:.3f} +- {:.3f}", measured.value, measured.band);
 }
@@ -28,6 +42,17 @@ double touching_fraction(const granvof::Contact& contact, double solid_fraction,
         middle;
   }
   return none;
+}
+
+FrictionFit fit_of_first(const std::vector<FirstFlow>& first, const ChuteResult& chute) {
+  std::vector<FrictionPoint> points;
+  for (const FirstFlow& flow : first)
+    for (std::size_t p = 0; p < flow.points.size(); ++p)
+      if (flow.strain[p] >= least_strain && flow.strain[p] <= largest_strain)
+        points.push_back(flow.points[p].friction);
+  for (const ChutePoint& point : chute.points)
+    if (point.friction.inertial_number > slow_flow) points.push_back(point.friction);
+  return fit_friction(points);
 }
 
 Measured critical_packing(const ChuteResult& chute, double& load) {
@@ -72,17 +97,28 @@ std::string material_text(const granvof::Scene& scene, const ElementTests& t) {
       number(t.loosest.solid_fraction), number(t.densest.solid_fraction), number(t.critical),
       number(t.restitution), granvof::closures::frictional_restitution(r.bead_restitution, r.bead_friction),
       t.wall ? number(*t.wall) : "none");
-  text += "\n[solid]\n";
-  text += row("friction", t.friction.law.at_rest, 3, {0.0, t.friction.band.at_rest}, "mu_s, ");
-  text += "\n[contact]\n";
-  text += row("fast_friction", t.friction.law.limit, 3, {0.0, t.friction.band.limit}, "mu_2, ");
-  text += row("inertial_number", t.friction.law.scale, 3, {0.0, t.friction.band.scale}, "I_0, ");
+  text += friction_rows(t.friction);
   text += row("solid_fraction_min", loosest, 4, t.loosest.solid_fraction, "");
   text += row("critical_solid_fraction", critical, 4, t.critical, "");
   text +=
       fmt::format("dense_solid_fraction = {:.4f}\n", loosest + c.dense_solid_fraction - c.solid_fraction_min);
   text += fmt::format("solid_fraction_max = {:.4f}\n", loosest + c.solid_fraction_max - c.solid_fraction_min);
   return text;
+}
+
+std::string first_strain_text(const granvof::Scene& scene, const ElementTests& t) {
+  return fmt::format(
+             "# Friction of the beads of {} before they have flowed for long, measured by `demvof element`: "
+             "fresh "
+             "layers tilted\n"
+             "# until they flow, at {} degrees, and their windows at strains of {:g} to {:g}; above I = "
+             "{:g}, where "
+             "both agree, those of\n"
+             "# the chute; rms {:.3f}. To be taken over with `base` after the material file, whose friction "
+             "is that "
+             "of long flow.\n",
+             scene.name, angles_of(t.first), least_strain, largest_strain, slow_flow, t.first_friction.rms) +
+         friction_rows(t.first_friction);
 }
 
 }  // namespace demvof

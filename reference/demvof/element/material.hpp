@@ -5,6 +5,7 @@
 #include <string>
 
 #include "reference/demvof/bulk_friction/chute.hpp"
+#include "reference/demvof/element/first_flow.hpp"
 #include "reference/demvof/element/measured.hpp"
 #include "reference/demvof/element/packing_at_rest.hpp"
 #include "solver/scene/scene.hpp"
@@ -13,7 +14,9 @@ namespace demvof {
 
 struct ElementTests {
   ChuteResult chute;
-  FrictionFit friction;
+  FrictionFit friction;          // of long flow: of the chute's windows
+  std::vector<FirstFlow> first;  // a seed each
+  FrictionFit first_friction;    // of first strain, and where that is too slow of the chute's fast flow
   PackingAtRest loosest, densest;
   Measured critical;             // f_s of slow flow: I -> 0 on the chute [-]
   double critical_load = 0.0;    // of the windows that gave it [Pa]
@@ -27,6 +30,10 @@ inline constexpr double slow_flow = 0.15;  // largest I of the line that gives t
 // takes as f_s,min. load >= 0.
 double touching_fraction(const granvof::Contact& contact, double solid_fraction, double load);
 
+// mu(I) of the windows of first strain, least_strain to largest_strain, and of the chute's that are faster
+// than slow_flow: there both agree, and first strain has none. std::invalid_argument where there are too few.
+FrictionFit fit_of_first(const std::vector<FirstFlow>& first, const ChuteResult& chute);
+
 // From the windows of slow flow. std::invalid_argument where there are too few.
 Measured critical_packing(const ChuteResult& chute, double& load);
 
@@ -35,5 +42,8 @@ Measured critical_packing(const ChuteResult& chute, double& load);
 // contact.solid_fraction_max from f_s,min stay those of `scene`, whose stiffness and exponent it needs beside
 // it.
 std::string material_text(const granvof::Scene& scene, const ElementTests& tests);
+
+// A piece that a case takes over after the material: friction of first strain in the place of long flow's.
+std::string first_strain_text(const granvof::Scene& scene, const ElementTests& tests);
 
 }  // namespace demvof
