@@ -14,7 +14,9 @@ constexpr double lowest_slope = 16.0, steepest = 40.0, step = 0.5;  // [degrees]
 constexpr double time_of_slope = 8.0;                               // sqrt(d/g)
 constexpr double time_of_window = 2.0;                              // likewise
 constexpr double flows = 0.1;                                       // rms speed, sqrt(g d)
-constexpr int most_windows = 200;
+constexpr double fast_slope = 34.0;                                 // [degrees]
+constexpr double fastest = 0.6;                                     // inertial number
+constexpr int most_windows = 80;                                    // a slope
 
 }  // namespace
 
@@ -42,25 +44,27 @@ FirstFlow first_flow(LayerSettings settings, const ContactLaw& preparation) {
     granvof::throw_if_stopped();
     if (rms_speed(layer.engine().state()) > flowing) result.started_at = slope;
   }
-  layer.engine().set_gravity(settings.gravity, first_slope);
   const int window = steps(time_of_window);
   const double duration = window * settings.dt;
-  std::vector<Profile> last;
-  double strain = 0.0;
-  for (int w = 0; w < most_windows && strain < largest_strain; ++w) {
-    last.push_back(layer.window(window));
-    granvof::throw_if_stopped();
-    if (last.size() < 3) continue;
-    const std::optional<ChutePoint> point =
-        chute_point(layer, last[1], acceleration_between(last[0], last[2], 2.0 * duration), first_slope);
-    last.erase(last.begin());
-    if (!point) continue;
-    const double rate =
-        point->friction.inertial_number * std::sqrt(point->load / settings.density) / settings.diameter;
-    strain += rate * duration;
-    result.points.push_back(*point);
-    result.points.back().time = layer.engine().time() - 1.5 * duration;
-    result.strain.push_back(strain);
+  double strain = 0.0, inertia = 0.0;
+  for (const double slope : {first_slope, fast_slope}) {
+    layer.engine().set_gravity(settings.gravity, slope);
+    std::vector<Profile> last;
+    for (int w = 0; w < most_windows; ++w) {
+      if (slope == first_slope ? strain >= largest_strain : inertia >= fastest) break;
+      last.push_back(layer.window(window));
+      granvof::throw_if_stopped();
+      if (last.size() < 3) continue;
+      std::optional<ChutePoint> point =
+          chute_point(layer, last[1], acceleration_between(last[0], last[2], 2.0 * duration), slope);
+      last.erase(last.begin());
+      if (!point) continue;
+      inertia = point->friction.inertial_number;
+      strain += inertia * std::sqrt(point->load / settings.density) / settings.diameter * duration;
+      point->time = layer.engine().time() - 1.5 * duration;
+      result.points.push_back(*point);
+      result.strain.push_back(strain);
+    }
   }
   return result;
 }

@@ -48,7 +48,8 @@ FrictionFit fit_of_first(const std::vector<FirstFlow>& first, const ChuteResult&
   std::vector<FrictionPoint> points;
   for (const FirstFlow& flow : first)
     for (std::size_t p = 0; p < flow.points.size(); ++p)
-      if (flow.strain[p] >= least_strain && flow.strain[p] <= largest_strain)
+      if ((flow.strain[p] >= least_strain && flow.strain[p] <= largest_strain) ||
+          flow.points[p].friction.inertial_number > slow_flow)
         points.push_back(flow.points[p].friction);
   for (const ChutePoint& point : chute.points)
     if (point.friction.inertial_number > slow_flow) points.push_back(point.friction);
@@ -82,7 +83,12 @@ std::string material_text(const granvof::Scene& scene, const ElementTests& t) {
       "are twice the\n"
       "# standard error.\n"
       "#\n"
-      "# mu(I): {} windows on a rough chute, rms {:.3f}; rest at {} degrees, flows again at {}.\n"
+      "# mu(I): layers at rest tilted until they flow, at {} degrees, and their windows at strains of {:g} "
+      "to {:g}; above\n"
+      "# I = {:g} those of a rough chute, rms {:.3f}. In long slow flow the chute has mu_s {:.3f}, mu_2 "
+      "{:.3f}, I_0 {:.3f},\n"
+      "# and rests at {} degrees: where beads of one size have slid into layers it is less, and no collapse "
+      "gets there.\n"
       "# Packings: at rest {} at the loosest, {} without friction; {} in slow flow. The law takes the\n"
       "# packing at which grains touch: what (13) gives under the load of each test is taken off. What flow "
       "dilates to,\n"
@@ -91,34 +97,19 @@ std::string material_text(const granvof::Scene& scene, const ElementTests& t) {
       "{:.3f}),\n"
       "# friction on a plane wall {}.\n",
       scene.name, 1e3 * scene.solid.diameter * r.coarse_graining, scene.solid.density, r.bead_friction,
-      r.bead_restitution, t.chute.points.size(), t.friction.rms,
-      t.chute.stopped_at ? fmt::format("{:g}", *t.chute.stopped_at) : "no slope above the last",
-      t.chute.started_at ? fmt::format("{:g}", *t.chute.started_at) : "none tried",
-      number(t.loosest.solid_fraction), number(t.densest.solid_fraction), number(t.critical),
-      number(t.restitution), granvof::closures::frictional_restitution(r.bead_restitution, r.bead_friction),
+      r.bead_restitution, angles_of(t.first), least_strain, largest_strain, slow_flow, t.first_friction.rms,
+      t.friction.law.at_rest, t.friction.law.limit, t.friction.law.scale,
+      t.chute.stopped_at ? fmt::format("{:g}", *t.chute.stopped_at) : "no", number(t.loosest.solid_fraction),
+      number(t.densest.solid_fraction), number(t.critical), number(t.restitution),
+      granvof::closures::frictional_restitution(r.bead_restitution, r.bead_friction),
       t.wall ? number(*t.wall) : "none");
-  text += friction_rows(t.friction);
+  text += friction_rows(t.first_friction);
   text += row("solid_fraction_min", loosest, 4, t.loosest.solid_fraction, "");
   text += row("critical_solid_fraction", critical, 4, t.critical, "");
   text +=
       fmt::format("dense_solid_fraction = {:.4f}\n", loosest + c.dense_solid_fraction - c.solid_fraction_min);
   text += fmt::format("solid_fraction_max = {:.4f}\n", loosest + c.solid_fraction_max - c.solid_fraction_min);
   return text;
-}
-
-std::string first_strain_text(const granvof::Scene& scene, const ElementTests& t) {
-  return fmt::format(
-             "# Friction of the beads of {} before they have flowed for long, measured by `demvof element`: "
-             "fresh "
-             "layers tilted\n"
-             "# until they flow, at {} degrees, and their windows at strains of {:g} to {:g}; above I = "
-             "{:g}, where "
-             "both agree, those of\n"
-             "# the chute; rms {:.3f}. To be taken over with `base` after the material file, whose friction "
-             "is that "
-             "of long flow.\n",
-             scene.name, angles_of(t.first), least_strain, largest_strain, slow_flow, t.first_friction.rms) +
-         friction_rows(t.first_friction);
 }
 
 }  // namespace demvof

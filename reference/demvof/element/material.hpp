@@ -30,20 +30,17 @@ inline constexpr double slow_flow = 0.15;  // largest I of the line that gives t
 // takes as f_s,min. load >= 0.
 double touching_fraction(const granvof::Contact& contact, double solid_fraction, double load);
 
-// mu(I) of the windows of first strain, least_strain to largest_strain, and of the chute's that are faster
-// than slow_flow: there both agree, and first strain has none. std::invalid_argument where there are too few.
+// mu(I) of the windows of first strain, least_strain to largest_strain, and of all that are faster than
+// slow_flow, the chute's too: there both agree. std::invalid_argument where there are too few.
 FrictionFit fit_of_first(const std::vector<FirstFlow>& first, const ChuteResult& chute);
 
 // From the windows of slow flow. std::invalid_argument where there are too few.
 Measured critical_packing(const ChuteResult& chute, double& load);
 
-// A piece of a case file, [solid] and [contact], that a case takes over with `base`; numbers with three or
-// four digits and their bands in comments. Distances of contact.dense_solid_fraction and
-// contact.solid_fraction_max from f_s,min stay those of `scene`, whose stiffness and exponent it needs beside
-// it.
+// A piece of a case file, [solid] and [contact], that a case takes over with `base`: friction of first
+// strain, packings; numbers with three or four digits and their bands in comments. Distances of
+// contact.dense_solid_fraction and contact.solid_fraction_max from f_s,min stay those of `scene`, whose
+// stiffness and exponent it needs beside it.
 std::string material_text(const granvof::Scene& scene, const ElementTests& tests);
-
-// A piece that a case takes over after the material: friction of first strain in the place of long flow's.
-std::string first_strain_text(const granvof::Scene& scene, const ElementTests& tests);
 
 }  // namespace demvof

@@ -87,11 +87,10 @@ int record_in_this_process(const granvof::Scene& scene, const RecordOptions& opt
   const MpiSession session;
   const TestClock clock;
   const ElementTests tests = tests_of(scene, options, scratch.name().string());
-  const std::string material = material_text(scene, tests), first = first_strain_text(scene, tests);
+  const std::string material = material_text(scene, tests);
   write_tests(scene, options, clock, tests.chute, monitors_of(scene, tests));
   granvof::write_file_atomically(options.out / "material.toml", material);
-  granvof::write_file_atomically(options.out / "first-strain.toml", first);
-  fmt::print("{}\n{}", material, first);
+  fmt::print("{}", material);
   return 0;
 }
 

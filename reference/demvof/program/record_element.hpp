@@ -6,7 +6,7 @@
 namespace demvof {
 
 // Writes series.csv (a row a window of the chute), material.toml (a piece of a case, see
-// element/material.hpp), first-strain.toml (another, of the friction before long flow) and run.json, whose monitors hold every number with its band. Only [solid],
+// element/material.hpp) and run.json, whose monitors hold every number with its band. Only [solid],
 // [contact] and [reference] of the scene matter. `gate_closed` is not used. Returns 0, or 1 where the tests
 // fail: then nothing is written. Throws granvof::CaseError without a [reference] table or without gravity,
 // granvof::OutputError where options.out holds anything but element tests of this scene.
