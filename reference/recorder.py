@@ -9,6 +9,7 @@ element/ (all tests of the beads' material).
 import csv
 import hashlib
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -284,10 +285,15 @@ def require_files(folder, facts):
     found = stated_files(folder)
     for name in {*found, *facts["files"]}:
         stated = facts["files"].get(name)
+        if name not in found and stated == {"instants": 0, "sha256": None}:  # tests of beads write no fields
+            continue
         if not isinstance(stated, dict) or name not in found:
             raise RecordError(f"{folder / name} is stated or there, not both")
         if "sha256" in stated and stated["sha256"] is None:  # fields.h5 that links to a file an instant
             stated = stated | {"sha256": found[name]["sha256"]}
+        # demvof stated the end of a chute with all digits and wrote it with six; the digest tells files apart.
+        if name in found and math.isclose(found[name].get("end", 0), stated.get("end", 0), rel_tol=1e-6):
+            stated = stated | {key: found[name][key] for key in ("end",) if key in found[name]}
         if found[name] != stated:
             raise RecordError(f"{folder / name} is not the file that was written")
 

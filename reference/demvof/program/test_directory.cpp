@@ -39,7 +39,8 @@ std::string series_text(const ChuteResult& result) {
 granvof::FilesWritten files_of(const ChuteResult& result, const std::string& series) {
   granvof::FilesWritten files;
   files.series.rows = static_cast<std::int64_t>(result.points.size());
-  if (!result.points.empty()) files.series.end = result.points.back().time;
+  if (!result.points.empty())
+    files.series.end = std::stod(fmt::format("{:.6g}", result.points.back().time));  // as it is written
   files.series.columns = columns;
   granvof::Digest digest;
   digest.add(series);
