@@ -14,7 +14,6 @@ import recorder  # noqa: E402
 from granvof_files import toml_of  # noqa: E402
 
 BEADS = sorted((ROOT / "cases/beads").glob("*-beads.toml"))
-MATERIAL = ROOT / "cases/materials/glass-beads-0.8mm.toml"
 
 
 def records_of(case):
@@ -35,19 +34,28 @@ def monitors(record):
 
 
 def test_there_is_one_of_each_collapse_that_is_held_to_beads():
-    assert [case.stem for case in BEADS] == ["canary-beads", "canary-dry-beads", "s1-beads", "s2-beads"]
+    assert [case.stem for case in BEADS] == ["canary-beads", "canary-dry-beads", "fw-2d-beads", "s1-beads", "s2-beads", "sw-2d-beads"]
 
 
 @pytest.mark.parametrize("case", BEADS, ids=lambda case: case.stem)
 def test_a_case_starts_with_as_much_solid_as_its_record_and_as_densely_packed(case):
     bed, records = toml_of(case)["bed"], records_of(case)
-    assert len(records) == 2
+    assert len(records) == (1 if case.stem == "fw-2d-beads" else 2)
     assert bed["solid_volume"] == pytest.approx(mean([first_solid_volume(record) for record in records]), rel=1e-4)
     assert bed["solid_fraction"] == pytest.approx(mean([monitors(record)["released_packing"] for record in records]), abs=1e-4)
 
 
-def test_the_material_is_what_the_chute_measured():
-    material, chute = toml_of(MATERIAL), monitors(recorder.RESULTS / "bulk-friction/s1/seed1")
+def test_the_glass_is_what_the_chute_measured():
+    material, chute = toml_of(ROOT / "cases/materials/glass-beads-0.8mm.toml"), monitors(recorder.RESULTS / "bulk-friction/s1/seed1")
     stated = {"mu_s": material["solid"]["friction"], "mu_2": material["contact"]["fast_friction"],
               "I_0": material["contact"]["inertial_number"]}
     assert stated == {name: round(chute[name], 3) for name in stated}
+
+
+def test_the_polypropylene_is_what_the_element_tests_measured():
+    material, measured = toml_of(ROOT / "cases/materials/polypropylene-beads-3.2mm.toml"), monitors(recorder.RESULTS / "element/sw-2d/seed1")
+    contact = material["contact"]
+    assert {"mu_s": material["solid"]["friction"], "mu_2": contact["fast_friction"], "I_0": contact["inertial_number"]} == {
+        name: round(measured[name], 3) for name in ("mu_s", "mu_2", "I_0")}
+    assert {"touching_loosest": contact["solid_fraction_min"], "touching_critical": contact["critical_solid_fraction"]} == {
+        name: round(measured[name], 4) for name in ("touching_loosest", "touching_critical")}

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "reference/demvof/program/record_chute.hpp"
+#include "reference/demvof/program/record_element.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "reference/tests/small_case.hpp"
 #include "solver/output/output_error.hpp"
@@ -208,4 +209,22 @@ TEST(RecordChute, AnothersDirectoryIsRefusedBeforeTheWork) {
     EXPECT_THROW(demvof::record_chute(scene, options), granvof::OutputError) << out;
   }
   EXPECT_EQ(text_of(mine / "series.csv"), "mine");
+}
+
+// Nor are element tests a chute, which lacks most of them.
+TEST(RecordElement, BadInputIsRefusedBeforeTheWorkAndNothingIsWritten) {
+  const granvof::test::TemporaryDirectory directory;
+  demvof::RecordOptions options = options_in(directory.path());
+  const auto refused = [&](const granvof::Scene& scene) {
+    return granvof::test::refusal([&] { demvof::record_element(scene, options); });
+  };
+  EXPECT_NE(refused(demvof::test::small({"reference=false"})).find("it has no [reference] table"),
+            std::string::npos);
+  EXPECT_NE(refused(demvof::test::small({"tank.gravity=0"})).find("tank.gravity is 0, allowed: > 0"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(options.out));
+  fs::create_directory(options.out);
+  std::ofstream(options.out / "run.json") << R"({"scene": "small", "monitors": {"mu_s": 0.3}})";
+  EXPECT_THROW(demvof::record_element(demvof::test::small(), options), granvof::OutputError);
+  EXPECT_FALSE(fs::exists(options.out / "series.csv"));
 }

@@ -211,6 +211,49 @@ def test_a_chute_has_no_fields_and_its_own_place(tmp_path):
     assert json.loads((folder / "record.json").read_text())["command"].startswith("demvof chute")
 
 
+def test_a_run_that_states_no_instants_has_no_fields(tmp_path):
+    """As demvof writes it of a chute."""
+    chute = recorder.Run("s1", 1, chute=True)
+    directory = finished_run(tmp_path / "run", command=chute.command)
+    (directory / "fields.h5").unlink()
+    path = directory / "run.json"
+    facts = json.loads(path.read_text())
+    for instants, accepted in ((0, True), (3, False)):
+        facts["files"]["fields.h5"] = {"instants": instants, "sha256": None}
+        path.write_text(json.dumps(facts))
+        if accepted:
+            assert "fields.h5" not in json.loads((recorder.make_record(chute, directory, "abc", tmp_path) / "record.json").read_text())["files"]
+        else:
+            with pytest.raises(recorder.RecordError, match="fields.h5 is stated or there, not both"):
+                recorder.make_record(chute, directory, "abc", tmp_path)
+
+
+def test_an_end_that_the_series_rounds_is_its_end_and_another_is_not(tmp_path):
+    for number, (end, accepted) in enumerate(((1.0 + 1e-9, True), (1.001, False))):
+        run = finished_run(tmp_path / f"run{number}")
+        path = run / "run.json"
+        facts = json.loads(path.read_text())
+        facts["files"]["series.csv"]["end"] = end
+        path.write_text(json.dumps(facts))
+        if accepted:
+            recorder.make_record(RUN, run, "abc", tmp_path)
+        else:
+            with pytest.raises(recorder.RecordError, match="series.csv is not the file"):
+                recorder.make_record(RUN, run, "abc", tmp_path)
+
+
+def test_element_tests_have_no_fields_and_their_own_place(tmp_path):
+    tests = recorder.Run("s1", 2, element=True)
+    assert tests.arguments == ["element", "cases/s1.toml", "--seed", "2"]
+    directory = finished_run(tmp_path / "run", command=tests.command)
+    assert recorder.run_of(directory) == (tests, "solver's")
+    (directory / "fields.h5").unlink()
+    state_what_was_written(directory)
+    assert recorder.make_record(tests, directory, "abc", tmp_path) == tmp_path / "element/s1/seed2"
+    with pytest.raises(recorder.RecordError, match="a chute or element tests"):
+        recorder.Run("s1", 1, chute=True, element=True)
+
+
 def test_a_missing_program_is_an_error_that_says_what_to_do(tmp_path):
     ended = subprocess.run([REFERENCE / "record", "--build-dir", tmp_path], capture_output=True, text=True)
     assert ended.returncode == 2

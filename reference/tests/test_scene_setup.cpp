@@ -46,6 +46,14 @@ TEST(SceneSetup, TheGatesPlateIsAsTheWallsUnlessSaidOtherwise) {
   EXPECT_EQ(law({slip}).gate_friction, 0.0);
 }
 
+TEST(SceneSetup, MomentumIsCarriedUpwindUnlessSaidOtherwise) {
+  const auto scheme = [](const std::vector<std::string>& more) {
+    return demvof::fluid_settings(small(more), "scratch").convection;
+  };
+  EXPECT_EQ(scheme({}), demvof::MomentumConvection::upwind);
+  EXPECT_EQ(scheme({"reference.convection=van-leer"}), demvof::MomentumConvection::van_leer);
+}
+
 // Size and step follow the factor, the material does not.
 TEST(SceneSetup, CoarseGrainedBeadsAreLargerAndOfTheSameMaterial) {
   const granvof::Scene scene = small({"reference.coarse_graining=1.5"});

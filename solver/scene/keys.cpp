@@ -178,6 +178,8 @@ std::vector<Key> reference_keys() {
   const Words<ReferenceFloor> floors{{"rough", ReferenceFloor::rough}, {"smooth", ReferenceFloor::smooth}};
   const Words<ReferenceRelease> releases{{"gate", ReferenceRelease::gate},
                                          {"instant", ReferenceRelease::instant}};
+  const Words<ReferenceConvection> convections{{"upwind", ReferenceConvection::upwind},
+                                               {"van-leer", ReferenceConvection::van_leer}};
   const Range poisson{.lower = -1.0, .upper = 0.5, .lower_open = true, .upper_open = true};
   return {
       required(
@@ -188,6 +190,8 @@ std::vector<Key> reference_keys() {
       came_later(key("reference.coarse_graining", "-", Range{.lower = 1.0, .upper = 10.0},
                      MEMBER(reference.settings.coarse_graining),
                      "Bead's over grain's diameter: a bead stands for its cube of grains.")),
+      came_later(choice("reference.convection", convections, MEMBER(reference.settings.convection),
+                        "Of the fluid's momentum: of first order, or of second, limited.")),
       otherwise(key("reference.slice_depth", "m", positive, MEMBER(reference.slice_depth),
                     "Depth of the slice; required in 2D, 2D only."),
                 "the tank's (3D)"),

@@ -191,6 +191,7 @@ struct Grid3 {
 
 enum class ReferenceFloor { rough, smooth };  // frozen beads cover the floor; a plane with friction
 enum class ReferenceRelease { gate, instant };
+enum class ReferenceConvection { upwind, van_leer };  // of first order; of second, limited by van Leer
 
 // How demvof computes the scene; the solver reads none of it.
 struct ReferenceSettings {
@@ -203,6 +204,7 @@ struct ReferenceSettings {
   std::vector<int> seeds{1, 2};  // one run each: the spread is the reference's own uncertainty
   ReferenceFloor floor = ReferenceFloor::rough;
   ReferenceRelease release = ReferenceRelease::gate;
+  ReferenceConvection convection = ReferenceConvection::upwind;  // of the fluid's momentum
   double hold = 0.12;                  // under the final contact law behind the closed gate, before t = 0 [s]
   double young = 5e6;                  // [Pa]
   double poisson = 0.3;                // [-], in (-1, 0.5)

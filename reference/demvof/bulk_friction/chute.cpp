@@ -3,182 +3,111 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
-#include "reference/demvof/beads/bead_engine.hpp"
-#include "reference/demvof/preparation/disperse.hpp"
-#include "reference/demvof/preparation/rough_floor.hpp"
+#include "reference/demvof/preparation/settle.hpp"
 #include "solver/output/stop_signals.hpp"
 
 namespace demvof {
 
 namespace {
 
-constexpr double start_packing = 0.52;  // of the dispersed beads [-]
-constexpr double rest_packing = 0.58;   // of the layer [-]
-constexpr double start_inertia = 0.4;   // inertial number of the first flow, to spare the way there [-]
-constexpr int windows_per_stage = 6;    // the first and the last have no acceleration of their own
-constexpr int samples_per_window = 10;
-constexpr double bottom_left_out = 3.0;   // of the layer, in diameters
-constexpr double surface_left_out = 4.0;  // load above a point that counts, in diameters of packed layer
-constexpr double at_rest = 0.01;          // rms speed, in sqrt(g d)
+constexpr int windows_per_stage = 6;     // the first and the last have no acceleration of their own
+constexpr double at_rest = 0.01;         // rms speed, in sqrt(g d)
+constexpr double flows_again = 0.1;      // likewise: far above what a layer at rest creeps with
+constexpr double step_of_start = 0.5;    // of the slope on the way up [degrees]
+constexpr double steepest_start = 40.0;  // [degrees]
 
-// Means over a window, in bins one diameter high.
-struct Profile {
-  std::vector<double> solid;     // number of beads a sample, then f_s [-]
-  std::vector<double> velocity;  // along the chute [m/s]
-};
-
-class Chute {
- public:
-  explicit Chute(const ChuteSettings& s)
-      : s_(s),
-        area_(s.length * s.depth * s.diameter * s.diameter),
-        engine_(bead_settings(s), layer(s), floor(s)) {
-    bins_ = static_cast<std::size_t>(engine_.settings().tank[1] / s.diameter);
+// From rest upwards; half a stage a slope.
+std::optional<double> start_of(PeriodicLayer& layer, double from, int stage_steps) {
+  const LayerSettings& s = layer.settings();
+  const double flowing = flows_again * std::sqrt(s.gravity * s.diameter);
+  for (double slope = from; slope <= steepest_start; slope += step_of_start) {
+    layer.engine().set_gravity(s.gravity, slope);
+    layer.engine().run(stage_steps / 2);
+    granvof::throw_if_stopped();
+    if (rms_speed(layer.engine().state()) > flowing) return slope;
   }
-
-  BeadEngine& engine() { return engine_; }
-
-  Profile window(int steps) {
-    Profile mean{std::vector<double>(bins_, 0.0), std::vector<double>(bins_, 0.0)};
-    for (int sample = 0; sample < samples_per_window; ++sample) {
-      engine_.run(steps / samples_per_window);
-      const BeadState& beads = engine_.state();
-      for (std::size_t b = 0; b < beads.count(); ++b) {
-        const double height = std::max(0.0, beads.position[3 * b + 1] / s_.diameter);
-        const std::size_t bin = std::min(bins_ - 1, static_cast<std::size_t>(height));
-        mean.solid[bin] += 1.0;
-        mean.velocity[bin] += beads.velocity[3 * b];
-      }
-    }
-    const double share = engine_.bead_volume() / (area_ * s_.diameter * samples_per_window);
-    for (std::size_t bin = 0; bin < bins_; ++bin) {
-      if (mean.solid[bin] > 0.0) mean.velocity[bin] /= mean.solid[bin];
-      mean.solid[bin] *= share;
-    }
-    return mean;
-  }
-
-  // Mean over the heights that count; nothing without flow. `acceleration` a bin [m/s2].
-  std::optional<ChutePoint> point(const Profile& now, const std::vector<double>& acceleration,
-                                  double slope) const {
-    const double angle = slope * std::numbers::pi / 180.0;
-    const double along = s_.gravity * std::sin(angle), down = s_.gravity * std::cos(angle);
-    double shear = 0.0, load = 0.0, heights = 0.0, volume = 0.0, flux = 0.0;
-    ChutePoint point;
-    point.slope = slope;
-    for (std::size_t bin = bins_ - 1; bin-- > 1;) {
-      const double mass =
-          s_.density * now.solid[bin + 1] * s_.diameter;  // of the bin above this edge [kg/m2]
-      shear += mass * (along - acceleration[bin + 1]);
-      load += mass * down;
-      volume += now.solid[bin + 1];
-      flux += now.solid[bin + 1] * now.velocity[bin + 1];
-      const auto edge = static_cast<double>(bin + 1);
-      if (edge < bottom_left_out || load < surface_left_out * s_.diameter * rest_packing * s_.density * down)
-        continue;
-      const double rate = (now.velocity[bin + 1] - now.velocity[bin]) / s_.diameter;
-      point.friction.friction += shear / load;
-      point.friction.inertial_number += rate * s_.diameter / std::sqrt(load / s_.density);
-      point.solid_fraction += 0.5 * (now.solid[bin] + now.solid[bin + 1]);
-      heights += 1.0;
-    }
-    if (heights == 0.0 || volume == 0.0) return std::nullopt;
-    point.friction.friction /= heights;
-    point.friction.inertial_number /= heights;
-    point.solid_fraction /= heights;
-    point.mean_speed = flux / volume;
-    return point;
-  }
-
-  double rms_speed() const {
-    const std::vector<double>& velocity = engine_.state().velocity;
-    double sum = 0.0;
-    for (const double v : velocity) sum += v * v;
-    return std::sqrt(sum / static_cast<double>(engine_.state().count()));
-  }
-
- private:
-  ChuteSettings s_;
-  double area_;
-  BeadEngine engine_;
-  std::size_t bins_ = 0;
-
-  static double top(const ChuteSettings& s) {
-    return s.diameter * (0.7 + s.layer * rest_packing / start_packing);
-  }
-  static BeadSettings bead_settings(const ChuteSettings& s) {
-    BeadSettings b;
-    b.tank = {s.length * s.diameter, 2.0 * top(s), s.depth * s.diameter};
-    b.periodic_depth = b.periodic_length = true;
-    b.diameter = s.diameter;
-    b.density = s.density;
-    b.law = s.law;
-    b.dt = s.dt;
-    b.gravity = s.gravity;
-    b.scratch_folder = s.scratch_folder;
-    return b;
-  }
-  static std::vector<double> floor(const ChuteSettings& s) {
-    return rough_floor({s.length * s.diameter, s.depth * s.diameter, true}, s.diameter, s.seed);
-  }
-  static BeadState layer(const ChuteSettings& s) {
-    std::mt19937 random(s.seed);
-    const double d = s.diameter, volume = std::numbers::pi / 6.0 * d * d * d;
-    const Vector lower{0.0, 0.7 * d, 0.0}, upper{s.length * d, top(s), s.depth * d};
-    const double room = upper[0] * (upper[1] - lower[1]) * upper[2];
-    const auto count = static_cast<std::size_t>(start_packing * room / volume);
-    BeadState beads;
-    beads.position = disperse_beads(count, lower, upper, true, d, random);
-    // Bagnold's profile of a layer that flows with `start_inertia`.
-    const double height = s.layer * d;
-    const double rate = start_inertia * std::sqrt(rest_packing * s.gravity) / d;
-    beads.velocity.assign(beads.position.size(), 0.0);
-    for (std::size_t n = 0; n < beads.velocity.size(); n += 3) {
-      const double below_top = std::max(0.0, height - beads.position[n + 1]);
-      beads.velocity[n] = 2.0 / 3.0 * rate * (std::pow(height, 1.5) - std::pow(below_top, 1.5));
-    }
-    return beads;
-  }
-};
+  return std::nullopt;
+}
 
 }  // namespace
 
+std::optional<ChutePoint> chute_point(const PeriodicLayer& layer, const Profile& now,
+                                      const std::vector<double>& acceleration, double slope) {
+  const LayerSettings& s = layer.settings();
+  const double angle = slope * std::numbers::pi / 180.0, d = s.diameter;
+  const double along = s.gravity * std::sin(angle), down = s.gravity * std::cos(angle);
+  double shear = 0.0, load = 0.0, heights = 0.0, volume = 0.0, flux = 0.0;
+  ChutePoint point;
+  point.slope = slope;
+  for (std::size_t edge = now.solid.size() - 1; edge > 1; --edge) {
+    const double mass = s.density * now.solid[edge] * d;  // of the bin above this edge [kg/m2]
+    shear += mass * (along - acceleration[edge]);
+    load += mass * down;
+    volume += now.solid[edge];
+    flux += now.solid[edge] * now.velocity[edge];
+    if (!layer.counts(now, edge)) continue;
+    const double rate = (now.velocity[edge] - now.velocity[edge - 1]) / d;
+    point.friction.friction += shear / load;
+    point.friction.inertial_number += rate * d / std::sqrt(load / s.density);
+    point.solid_fraction += 0.5 * (now.solid[edge - 1] + now.solid[edge]);
+    point.load += load;
+    // A rate of shear spreads the velocity along the slope by (rate d)^2 / 12 in a bin: a third of it a
+    // component.
+    const double spread = 0.5 * (now.fluctuation[edge - 1] + now.fluctuation[edge]);
+    point.temperature += rate == 0.0 ? 0.0 : std::max(0.0, spread / (rate * rate * d * d) - 1.0 / 36.0);
+    heights += 1.0;
+  }
+  if (heights == 0.0 || volume == 0.0) return std::nullopt;
+  for (double* mean : {&point.friction.friction, &point.friction.inertial_number, &point.solid_fraction,
+                       &point.load, &point.temperature})
+    *mean /= heights;
+  point.mean_speed = flux / volume;
+  return point;
+}
+
+std::vector<double> acceleration_between(const Profile& before, const Profile& after, double time) {
+  std::vector<double> acceleration(before.velocity.size());
+  for (std::size_t bin = 0; bin < acceleration.size(); ++bin)
+    acceleration[bin] = (after.velocity[bin] - before.velocity[bin]) / time;
+  return acceleration;
+}
+
 ChuteResult run_chute(const ChuteSettings& s) {
-  Chute chute(s);
+  PeriodicLayer layer(s);
   ChuteResult result;
-  result.beads = chute.engine().state().count();
+  result.beads = layer.engine().state().count();
   const int steps =
       samples_per_window *
       static_cast<int>(std::lround(s.stage_time / (windows_per_stage * samples_per_window * s.dt)));
   const double duration = steps * s.dt, still = at_rest * std::sqrt(s.gravity * s.diameter);
   for (const double slope : s.slopes) {
-    chute.engine().set_gravity(s.gravity, slope);
+    layer.engine().set_gravity(s.gravity, slope);
     std::vector<Profile> windows;
     windows.reserve(windows_per_stage);
-    const double begin = chute.engine().time();
+    const double begin = layer.engine().time();
     for (int w = 0; w < windows_per_stage; ++w) {
-      windows.push_back(chute.window(steps));
+      windows.push_back(layer.window(steps));
       granvof::throw_if_stopped();
     }
     for (std::size_t w = 1; w + 1 < windows.size(); ++w) {
-      std::vector<double> acceleration(windows[w].velocity.size());
-      for (std::size_t bin = 0; bin < acceleration.size(); ++bin) {
-        acceleration[bin] = (windows[w + 1].velocity[bin] - windows[w - 1].velocity[bin]) / (2.0 * duration);
-      }
-      std::optional<ChutePoint> point = chute.point(windows[w], acceleration, slope);
+      const std::vector<double> acceleration =
+          acceleration_between(windows[w - 1], windows[w + 1], 2.0 * duration);
+      std::optional<ChutePoint> point = chute_point(layer, windows[w], acceleration, slope);
       if (!point || point->mean_speed < still) continue;
       point->time = begin + (static_cast<double>(w) + 0.5) * duration;
       result.points.push_back(*point);
     }
-    if (chute.rms_speed() < still) {
+    if (rms_speed(layer.engine().state()) < still) {
       result.stopped_at = slope;
       break;
     }
     result.lowest_flow = slope;
   }
-  result.duration = chute.engine().time();
+  result.duration = layer.engine().time();
+  if (s.find_start && result.stopped_at) {
+    result.started_at = start_of(layer, *result.stopped_at + step_of_start, steps * windows_per_stage);
+  }
   return result;
 }
 

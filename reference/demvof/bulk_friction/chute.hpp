@@ -4,31 +4,22 @@
 // from the momentum above it, also while the flow slows down:
 //   tau(y) = integral over y' > y of rho_s f_s (g sin - du/dt),  P(y) = integral of rho_s f_s g cos
 // and mu = tau / P belongs to the inertial number I = (du/dy) d / sqrt(P / rho_s) (GDR MiDi, Eur. Phys. J. E
-// 14, 2004).
+// 14, 2004). Then, if wanted, the slope is raised again from rest until the layer starts.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "reference/demvof/beads/bead_settings.hpp"
 #include "reference/demvof/bulk_friction/friction_law.hpp"
+#include "reference/demvof/bulk_friction/layer.hpp"
 
 namespace demvof {
 
-struct ChuteSettings {
-  double diameter = 0.0;       // [m]
-  double density = 0.0;        // of the beads [kg/m3]
-  double gravity = 9.81;       // [m/s2]
-  double dt = 1e-5;            // [s]
-  ContactLaw law;              // the run's
-  double length = 10.0;        // along the flow, periodic [diameters]
-  double depth = 8.0;          // across, periodic [diameters]
-  double layer = 14.0;         // height of the layer at rest [diameters]
+struct ChuteSettings : LayerSettings {
   std::vector<double> slopes;  // one stage each, in this order [degrees]
   double stage_time = 0.3;     // [s]
-  unsigned seed = 1;           // of the layer and of the floor
-  std::string scratch_folder;
+  bool find_start = false;     // raise the slope again after the layer has stopped
 };
 
 // One window of the flow, averaged over the layer without its bottom and its surface.
@@ -38,6 +29,8 @@ struct ChutePoint {
   FrictionPoint friction;
   double solid_fraction = 0.0;  // [-]
   double mean_speed = 0.0;      // along the chute [m/s]
+  double load = 0.0;            // P [Pa]
+  double temperature = 0.0;     // Theta without what shear alone spreads in a bin, over (d du/dy)^2 [-]
 };
 
 struct ChuteResult {
@@ -46,7 +39,16 @@ struct ChuteResult {
   std::vector<ChutePoint> points;     // windows in which the layer flowed
   std::optional<double> lowest_flow;  // smallest slope at whose end the layer still flowed [degrees]
   std::optional<double> stopped_at;   // first slope at whose end it was at rest [degrees]
+  std::optional<double> started_at;   // first slope on the way up at whose end it flows [degrees]
 };
+
+// Change of the velocity of each bin over `time` [m/s2].
+std::vector<double> acceleration_between(const Profile& before, const Profile& after, double time);
+
+// Means of a window over the heights that count, but for its time; nothing without flow. `acceleration` a bin
+// [m/s2], slope [degrees].
+std::optional<ChutePoint> chute_point(const PeriodicLayer& layer, const Profile& now,
+                                      const std::vector<double>& acceleration, double slope);
 
 // Throws std::runtime_error when a bead is lost.
 ChuteResult run_chute(const ChuteSettings& settings);

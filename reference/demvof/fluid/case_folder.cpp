@@ -17,14 +17,14 @@ std::string header(const std::string& object) {
   return "FoamFile { version 2.0; format ascii; class dictionary; object " + object + "; }\n";
 }
 
-// Linear everywhere but for what is advected: upwind for momentum (as the continuum), van Leer for alpha.
+// Linear everywhere but for what is advected: van Leer for alpha, the settings' scheme for momentum, which
+// does not ask here.
 const char* const schemes = R"(
 ddtSchemes { default Euler; }
 gradSchemes { default Gauss linear; }
 divSchemes
 {
     default none;
-    div(rhoPhi,U) Gauss upwind;
     div(phi,alpha) Gauss vanLeer;
     div(phirb,alpha) Gauss linear;
     div(viscous) Gauss linear;

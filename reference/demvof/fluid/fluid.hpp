@@ -26,6 +26,10 @@ enum class FluidSide {
   empty  // front and back of a two-dimensional grid: no equation across
 };
 
+// How the fluid's momentum is carried: first order, or second order where it is smooth (van Leer, J. Comput.
+// Phys. 14, 1974, limited in the direction of the steepest change).
+enum class MomentumConvection { upwind, van_leer };
+
 struct FluidSettings {
   std::array<int, 3> cells{{1, 1, 1}};  // nx, ny, nz; cell (i, j, k) has index (k ny + j) nx + i
   Vector spacing{};                     // [m]
@@ -35,8 +39,9 @@ struct FluidSettings {
   double gas_viscosity = 1e-5, liquid_viscosity = 1e-3;  // [Pa s]
   bool large_eddy = true;                                // mu_t of eq (10)
   double smagorinsky = 0.18;                             // C_s [-]
-  std::array<FluidSide, 6> sides{};                      // left, right, bottom, top, front, back
-  std::string scratch_folder;  // where OpenFOAM's dictionaries are written; removed at the end
+  MomentumConvection convection = MomentumConvection::upwind;
+  std::array<FluidSide, 6> sides{};  // left, right, bottom, top, front, back
+  std::string scratch_folder;        // where OpenFOAM's dictionaries are written; removed at the end
 };
 
 // What the beads see of the fluid, one value a cell.

@@ -53,6 +53,7 @@ Foam::tmp<Foam::volScalarField> effective_viscosity(const Fluid::Fields& fields)
 struct MomentumStep {
   const Foam::volScalarField& inertia;           // mass that the new velocity has, over dt [kg/(m3 s)]
   const Foam::volScalarField& old_inertia;       // that the old one had
+  const Foam::surfaceScalarField& weights;       // of the cells on the carried velocity of their face [-]
   const Foam::surfaceScalarField& viscosity;     // on faces [Pa s]
   const Foam::volVectorField& explicit_viscous;  // the part of the viscous force not in the matrix [N/m3]
   const Foam::volVectorField& drag;              // force density of the beads, all of it [N/m3]

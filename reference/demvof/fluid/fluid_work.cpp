@@ -37,7 +37,8 @@ FluidWork work_of_step(const Fluid::Fields& f, const MomentumStep& step) {
     work.outflow += 0.5 * dt * sum(f.rho_phi.boundaryField()[patch] * magSqr(f.U.boundaryField()[patch]));
   }
   // Convection of momentum beyond that of 1/2 U^2 with the mass.
-  const volVectorField convected(fvc::div(f.rho_phi, f.U, "div(rhoPhi,U)"));
+  const volVectorField convected(
+      fvc::surfaceIntegrate(f.rho_phi * surfaceInterpolationScheme<vector>::interpolate(f.U, step.weights)));
   const scalarField mass_lost((step.old_inertia - step.inertia)().primitiveField());
   work.numerical_momentum = dt * (power(f, convected.primitiveField()) -
                                   0.5 * volume * sum(mass_lost * magSqr(f.U.primitiveField()))) -

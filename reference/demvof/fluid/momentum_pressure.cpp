@@ -1,6 +1,7 @@
 // Momentum with implicit drag, and the pressure that gives the flux its divergence -d(eps)/dt.
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "gaussConvectionScheme.H"
 #include "reference/demvof/fluid/fluid_fields.hpp"
 
 namespace demvof {
@@ -10,6 +11,11 @@ namespace {
 using namespace Foam;
 
 constexpr int pressure_corrections = 2;
+
+tmp<surfaceInterpolationScheme<vector>> convection_scheme(const Fluid::Fields& f) {
+  IStringStream name(f.settings.convection == MomentumConvection::van_leer ? "vanLeerV" : "upwind");
+  return surfaceInterpolationScheme<vector>::New(f.mesh, f.rho_phi, name);
+}
 
 // Force of the boundary on the fluid: pressure on the patches, friction, momentum carried through the top,
 // and the pressure jump that a gate carries.
@@ -48,9 +54,14 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
   const volScalarField old_inertia(inertia + fvc::div(f.rho_phi));
   const volVectorField transposed(fvc::div(f.eps * mu * dev2(T(fvc::grad(f.U))), "div(viscous)"));
 
-  fvVectorMatrix equation(fvm::Sp(inertia, f.U) + fvm::div(f.rho_phi, f.U, "div(rhoPhi,U)") -
-                              fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
-                          old_inertia * U_old + f.drag * U_old + transposed);
+  const tmp<surfaceInterpolationScheme<vector>> convection(convection_scheme(f));
+  // A limiter looks at the velocity before the step; the step's ledger has to weigh as the step did.
+  const surfaceScalarField weights(convection().weights(f.U));
+  fvVectorMatrix equation(
+      fvm::Sp(inertia, f.U) +
+          fv::gaussConvectionScheme<vector>(mesh, f.rho_phi, convection).fvmDiv(f.rho_phi, f.U) -
+          fvm::laplacian(mu_face, f.U) + fvm::Sp(f.drag, f.U) ==
+      old_inertia * U_old + f.drag * U_old + transposed);
 
   const volScalarField rAU(1.0 / equation.A());
   const surfaceScalarField eps_face(fvc::interpolate(f.eps));
@@ -88,7 +99,7 @@ void solve_momentum_and_pressure(Fluid::Fields& f) {
   }
   f.boundary_force = force_of_boundary(f, mu, gate_jump);
   const volVectorField drag(f.eps * fvc::reconstruct(bead_pull) - f.drag * (f.U - U_old));
-  f.work = work_of_step(f, {inertia, old_inertia, mu_face, transposed, drag});
+  f.work = work_of_step(f, {inertia, old_inertia, weights, mu_face, transposed, drag});
   f.kinetic_energy = kinetic_energy(f, inertia * dt);
 }
 

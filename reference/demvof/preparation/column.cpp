@@ -10,45 +10,17 @@
 
 #include "reference/demvof/beads/bead_engine.hpp"
 #include "reference/demvof/preparation/disperse.hpp"
-#include "solver/output/stop_signals.hpp"
+#include "reference/demvof/preparation/settle.hpp"
 
 namespace demvof {
 
 namespace {
 
-constexpr double start_packing = 0.52;    // of the dispersed beads before they settle [-]
-constexpr double surplus = 1.10;          // beads taken more than the column needs; cut off at the end
-constexpr double relaxation_time = 0.02;  // of the drag while settling [s]
-constexpr double nearly_still = 0.10;     // ends the settling with the friction of the preparation
-constexpr double quite_still = 0.02;      // ends the settling with that of the run; the hold does the rest
-constexpr double longest_settling = 1.5;  // [s]
+constexpr double start_packing = 0.52;  // of the dispersed beads before they settle [-]
+constexpr double surplus = 1.10;        // beads taken more than the column needs; cut off at the end
 
 double bead_volume(double diameter) {
   return std::numbers::pi / 6.0 * diameter * diameter * diameter;
-}
-
-double rms_speed(const BeadState& state) {
-  double sum = 0.0;
-  for (const double v : state.velocity) sum += v * v;
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, state.count())));
-}
-
-// Runs until the rms speed is below `still`, in units of sqrt(g' d).
-void settle(BeadEngine& engine, double still_share) {
-  FluidLoad load;
-  load.resize(engine.state().count());
-  std::fill(load.coefficient.begin(), load.coefficient.end(), engine.bead_mass() / relaxation_time);
-  engine.set_load(load);
-  const double still = still_share * std::sqrt(engine.settings().gravity * engine.settings().diameter);
-  const int burst = static_cast<int>(std::lround(0.01 / engine.settings().dt));
-  const double start = engine.time();
-  for (int n = 0; engine.time() - start < longest_settling; ++n) {
-    engine.run(burst);
-    granvof::throw_if_stopped();
-    if (n > 1 && rms_speed(engine.state()) < still) return;
-  }
-  throw std::runtime_error(fmt::format("the column does not come to rest: {:.3g} m/s after {} s",
-                                       rms_speed(engine.state()), longest_settling));
 }
 
 }  // namespace

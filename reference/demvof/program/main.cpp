@@ -1,4 +1,4 @@
-// The program demvof: run, chute and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
+// The program demvof: run, chute, element and hash. Exit codes: 0 done, 1 the run failed, 2 bad input.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -11,6 +11,7 @@
 
 #include "reference/demvof/program/exit_code.hpp"
 #include "reference/demvof/program/record_chute.hpp"
+#include "reference/demvof/program/record_element.hpp"
 #include "reference/demvof/program/record_scene.hpp"
 #include "solver/output/empty_values.hpp"
 #include "solver/output/own_stack.hpp"
@@ -61,6 +62,16 @@ int chute(const Arguments& arguments) {
   return demvof::record_chute(scene, options);
 }
 
+int element(const Arguments& arguments) {
+  const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
+  demvof::RecordOptions options = arguments.record;
+  options.progress = options.progress || ::isatty(STDERR_FILENO) != 0;
+  if (options.out.empty())
+    options.out = fmt::format("out/reference/element/{}/seed{}", scene.name, options.seed);
+  if (options.scratch.empty()) options.scratch = "out/reference/scratch";
+  return demvof::record_element(scene, options);
+}
+
 int hash(const Arguments& arguments) {
   const granvof::Scene scene = granvof::load_scene(arguments.case_file, arguments.overrides);
   fmt::print("{} {}\n", scene.reference_hash, scene.hash);
@@ -91,6 +102,13 @@ int parse_and_run(int argc, char** argv) {
   add_case(*chute_command, arguments);
   add_places(*chute_command, arguments);
 
+  CLI::App* element_command = app.add_subcommand(
+      "element", "Measure the material of a case's beads in dry tests and write it as a piece of a case");
+  add_case(*element_command, arguments);
+  add_places(*element_command, arguments);
+  element_command->add_flag("--progress", arguments.record.progress,
+                            "Say which test runs, where stderr is no terminal too");
+
   CLI::App* hash_command =
       app.add_subcommand("hash", "Print two hashes: of what the reference depends on, and of the case");
   add_case(*hash_command, arguments);
@@ -102,6 +120,7 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
   if (*run_command) return run(arguments);
+  if (*element_command) return element(arguments);
   return *chute_command ? chute(arguments) : hash(arguments);
 }
 

@@ -204,6 +204,9 @@ FluidSettings fluid_settings(const Scene& scene, const std::string& scratch) {
   f.liquid_density = scene.liquid.density;
   f.liquid_viscosity = scene.liquid.viscosity;
   f.large_eddy = scene.model.les;
+  f.convection = scene.reference->convection == granvof::ReferenceConvection::van_leer
+                     ? MomentumConvection::van_leer
+                     : MomentumConvection::upwind;
   for (std::size_t s = 0; s < 6; ++s) {
     f.sides[s] = flat(scene) && s >= 4 ? FluidSide::empty : fluid_side(scene.sides[s]);
   }

@@ -277,6 +277,8 @@ TEST(Hash, AKeyThatCameAfterTheRecordsCountsOnlyAwayFromItsDefault) {
   const Scene coarse = small({"reference.coarse_graining=2"});
   EXPECT_NE(coarse.hash, small().hash);
   EXPECT_NE(coarse.reference_hash, small().reference_hash);
+  EXPECT_EQ(small({"reference.convection=upwind"}).reference_hash, small().reference_hash);
+  EXPECT_NE(small({"reference.convection=van-leer"}).reference_hash, small().reference_hash);
   const Scene plate = small({"reference.gate_friction=0.4"});  // the walls'
   EXPECT_EQ(plate.reference_hash, small().reference_hash);
   const Scene smooth = small({"reference.gate_friction=0"});
