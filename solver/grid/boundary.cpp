@@ -16,6 +16,7 @@ void for_side(const Layout& l, int d, Body&& body) {
 
 Boundary::Boundary(const Grid& grid) : grid_(grid), walls_(grid) {
   grid.for_each_open_side([&](int d, bool upper) {
+    if (!grid.has_side(d, upper)) return;
     const SideRule& rule = grid.side(d, upper);
     if (rule.pressure) set_beyond(side_pressure_, d, upper, rule.pressure);
     if (rule.liquid_that_flows_back)
@@ -84,7 +85,7 @@ void Boundary::fill_liquid_share(Field& alpha) const {
 void Boundary::fill_liquid_share(Field& alpha, const FaceField& flux_c) const {
   fill_liquid_share(alpha);
   grid_.for_each_open_side([&](int d, bool upper) {
-    if (!side(d, upper).liquid_that_flows_back) return;
+    if (!grid_.has_side(d, upper) || !side(d, upper).liquid_that_flows_back) return;
     const Layout& l = grid_.cells;
     const std::ptrdiff_t s = l.stride[d], face = upper ? l.n[d] * s : 0, beyond = upper ? face : face - s,
                          out = upper ? s : -s;

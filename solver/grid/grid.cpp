@@ -96,14 +96,14 @@ Range Grid::flux_faces(int d) const {
 Range Grid::side_faces(int d, bool upper) const {
   Range r = all_cells();
   r.lower[d] = upper ? cells.n[d] : 0;
-  r.upper[d] = r.lower[d] + 1;
+  r.upper[d] = r.lower[d] + (has_side(d, upper) ? 1 : 0);
   return r;
 }
 
 Range Grid::side_cells(int d, bool upper) const {
   Range r = all_cells();
   r.lower[d] = upper ? cells.n[d] - 1 : 0;
-  r.upper[d] = r.lower[d] + 1;
+  r.upper[d] = r.lower[d] + (has_side(d, upper) ? 1 : 0);
   return r;
 }
 

@@ -26,8 +26,8 @@ struct Grid {
   std::array<SideRule, 6> tank_sides;  // of the whole tank
   Obstacles obstacles;
 
-  // `communicator` to those who hold the rest of the tank must outlive this; none: it is whole. A tank that
-  // is cut among processes has no obstacles, and check_cut() says whether that many can share it.
+  // `communicator` to those who hold the rest of the tank must outlive this; none: it is whole. check_cut()
+  // says whether that many processes can share it.
   explicit Grid(const Scene& scene, const Communicator* communicator = nullptr);
 
   // Every column of cells is open from the floor to the top, and nothing flows through other sides than that.
@@ -39,6 +39,8 @@ struct Grid {
   Range cells_and_ghosts(int layers) const;
   const SideRule& side(int d, bool upper) const { return sides[2 * d + (upper ? 1 : 0)]; }
   const SideRule& tank_side(int d, bool upper) const { return tank_sides[2 * d + (upper ? 1 : 0)]; }
+  // This box reaches to that side of the tank.
+  bool has_side(int d, bool upper) const { return !cells.seam(d, upper); }
   // Grains meet bumps on a side of the tank.
   bool has_bumps() const;
   // No side of the tank passes the fluid: its volume has nowhere to go, and P_c no level of its own.
@@ -50,22 +52,23 @@ struct Grid {
   Range fluid_faces(int d) const;
   // All faces that either phase may pass: those of the fluid, and of sides where its velocity is given.
   Range flux_faces(int d) const;
-  // Faces of one side of direction d.
+  // Faces of one side of the tank across direction d; none where another process has them.
   Range side_faces(int d, bool upper) const;
   // The cells along it.
   Range side_cells(int d, bool upper) const;
-  // visit(d, upper) for every side through which something flows.
+  // visit(d, upper) for every side of the tank through which something flows, in all processes, so that they
+  // can add up what each of them has of it (side_faces()).
   template <typename Visit>
   void for_each_open_side(Visit&& visit) const {
     for (int d = 0; d < dim; ++d)
       for (const bool upper : {false, true})
-        if (side(d, upper).is_open()) visit(d, upper);
+        if (tank_side(d, upper).is_open()) visit(d, upper);
   }
   // The same for those that pass the fluid at a pressure.
   template <typename Visit>
   void for_each_passing_side(Visit&& visit) const {
     for_each_open_side([&](int d, bool upper) {
-      if (side(d, upper).passes_fluid) visit(d, upper);
+      if (tank_side(d, upper).passes_fluid) visit(d, upper);
     });
   }
   // Faces of direction d as a box of their own, in the memory of the cells' layout: one more than cells

@@ -7,13 +7,14 @@ namespace {
 
 constexpr int furthest_sight = 3;  // in cells, from a wall to what may see it
 
-// All places whose lower neighbours are in memory too.
-Range all_but_the_first(const Layout& l) {
+// All faces of direction d whose cells are both in memory.
+Range all_but_the_first(const Layout& l, int d) {
   Range r;
-  for (int d = 0; d < 3; ++d) {
-    r.lower[d] = l.ghost[d] > 0 ? 1 - l.ghost[d] : 0;
-    r.upper[d] = l.n[d] + l.ghost[d];
+  for (int e = 0; e < 3; ++e) {
+    r.lower[e] = -l.ghost[e];
+    r.upper[e] = l.n[e] + l.ghost[e];
   }
+  if (l.ghost[d] > 0) r.lower[d] += 1;
   return r;
 }
 
@@ -24,19 +25,19 @@ InnerWalls::InnerWalls(const Grid& grid) : grid_(grid), solid_(grid.obstacles.so
   const Layout& l = grid.cells;
   for (int d = 0; d < grid.dim; ++d) {
     closed_[d].assign(l.size, 0);
-    for_each_place(all_but_the_first(l), [&](const std::array<int, 3>& at) {
+    for_each_place(all_but_the_first(l, d), [&](const std::array<int, 3>& at) {
       const std::ptrdiff_t c = l.index(at);
       closed_[d][static_cast<std::size_t>(c)] = is_solid(c) || is_solid(c - l.stride[d]) ? 1 : 0;
     });
   }
-  list(all_but_the_first(l));
+  list(all_but_the_first(l, 0));
 }
 
 void InnerWalls::shut_gate(int face, int open_rows) {
   const Layout& l = grid_.cells;
   for (int d = 0; d < grid_.dim; ++d)
     if (closed_[d].empty()) closed_[d].assign(l.size, 0);
-  const Range all = all_but_the_first(l);
+  const Range all = all_but_the_first(l, 0);
   for (const int copy : {face - l.whole[0], face, face + l.whole[0]}) {  // beyond a seam
     Range plate = all;
     plate.lower[0] = copy - l.first[0];
@@ -107,7 +108,9 @@ void InnerWalls::list(const Range& near) {
     });
     for (int e = d + 1; e < grid_.dim; ++e) list_edges(d, e, near);
   }
-  for_each_place(common(grid_.all_cells(), near), [&](const std::array<int, 3>& at) {
+  Range with_beyond = grid_.all_cells();
+  for (int d = 0; d < grid_.dim; ++d) with_beyond.lower[d] -= l.seam(d, false) ? 1 : 0;
+  for_each_place(common(with_beyond, near), [&](const std::array<int, 3>& at) {
     const std::ptrdiff_t c = l.index(at);
     if (!is_solid(c) && beside_wall(c)) cells_.push_back({at, c});
   });

@@ -40,7 +40,8 @@ class InnerWalls {
   const std::vector<Place>& faces(int d) const { return faces_[d]; }
   // Faces of direction d that are walls.
   const std::vector<Place>& closed_faces(int d) const { return closed_faces_[d]; }
-  // Cells beside a wall, across edges and corners too.
+  // Cells beside a wall, across edges and corners too; the first beyond a lower seam among them, which give
+  // to the faces on it.
   const std::vector<Place>& cells() const { return cells_; }
   // Edges on a wall, of the plane with plane_index().
   const std::vector<Edge>& edges(int plane) const { return edges_[plane]; }

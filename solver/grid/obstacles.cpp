@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "solver/scene/box_cells.hpp"
-
 namespace granvof {
 namespace {
 
@@ -17,11 +15,24 @@ std::array<int, 3> place_of(const Layout& l, std::ptrdiff_t c) {
   return at;
 }
 
-// Not beyond a side that is none of a period.
+// Not beyond a side of the tank.
 bool in_the_tank(const Layout& l, const std::array<int, 3>& at) {
   for (int d = 0; d < 3; ++d)
-    if (!l.periodic[d] && (at[d] < 0 || at[d] >= l.n[d])) return false;
+    if ((at[d] < 0 && !l.seam(d, false)) || (at[d] >= l.n[d] && !l.seam(d, true))) return false;
   return true;
+}
+
+// Places along d, ghosts included, that hold rows from `lower` to before `upper` of the whole tank or copies
+// of them beyond joined ends. What stands at a side goes on beyond it.
+std::vector<int> places_of(const Layout& l, int d, int lower, int upper) {
+  std::vector<int> places;
+  const int whole = l.whole[d];
+  for (int at = -l.ghost[d]; at < l.n[d] + l.ghost[d]; ++at) {
+    const int row = l.first[d] + at;
+    const int inside = l.periodic[d] ? (row % whole + whole) % whole : std::clamp(row, 0, whole - 1);
+    if (lower <= inside && inside < upper) places.push_back(at);
+  }
+  return places;
 }
 
 }  // namespace
@@ -30,26 +41,7 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
                      const std::array<bool, 6>& flows) {
   if (boxes.empty()) return;
   solid_.assign(l.size, 0);
-  for (const Box& box : boxes) {
-    const BoxCells cells = cells_of(box, spacing, dim);
-    for_each_place({cells.lower, cells.upper}, [&](const std::array<int, 3>& at) {
-      char& solid = solid_[static_cast<std::size_t>(l.index(at))];
-      if (solid == 0) cells_.push_back(l.index(at));
-      solid = 1;
-    });
-  }
-  // Copies beyond joined ends, and of what stands at a side beyond that.
-  std::array<int, 3> lower{}, upper = l.n;
-  for (int d = 0; d < dim; ++d) {
-    lower[d] = -l.ghost[d];
-    upper[d] += l.ghost[d];
-  }
-  for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
-    std::array<int, 3> inside{};
-    for (int d = 0; d < 3; ++d)
-      inside[d] = l.periodic[d] ? (at[d] % l.n[d] + l.n[d]) % l.n[d] : std::clamp(at[d], 0, l.n[d] - 1);
-    solid_[static_cast<std::size_t>(l.index(at))] = solid_[static_cast<std::size_t>(l.index(inside))];
-  });
+  for (const Box& box : boxes) fill(l, cells_of(box, spacing, dim));
   for (int d = 0; d < dim; ++d) {
     std::array<int, 3> end = l.n;
     end[d] += 1;
@@ -62,23 +54,34 @@ Obstacles::Obstacles(const Layout& l, int dim, const Vec3& spacing, const std::v
   find_surface(l, dim);
 }
 
+void Obstacles::fill(const Layout& l, const BoxCells& box) {
+  std::array<std::vector<int>, 3> places;
+  for (int d = 0; d < 3; ++d) places[d] = places_of(l, d, box.lower[d], box.upper[d]);
+  const Range inside = Range::all(l);
+  for (const int k : places[2])
+    for (const int j : places[1])
+      for (const int i : places[0]) {
+        const std::ptrdiff_t c = l.index(i, j, k);
+        if (!is_solid(c) && inside.contains({i, j, k})) cells_.push_back(c);
+        solid_[static_cast<std::size_t>(c)] = 1;
+      }
+}
+
 // Not those on closed sides of the tank, which are walls themselves.
 void Obstacles::find_edges(const Layout& l, int d, int e, const std::array<bool, 6>& flows) {
   std::array<int, 3> lower{}, upper = l.n;
   for (const int axis : {d, e}) {
-    lower[axis] = l.periodic[axis] || flows[2 * axis] ? 0 : 1;
-    if (l.periodic[axis] || flows[2 * axis + 1]) upper[axis] += 1;
+    lower[axis] = l.seam(axis, false) || flows[2 * axis] ? 0 : 1;
+    if (l.seam(axis, true) || flows[2 * axis + 1]) upper[axis] += 1;
   }
   const std::ptrdiff_t s = l.stride[d], t = l.stride[e];
   for_each_place({lower, upper}, [&](const std::array<int, 3>& at) {
     Edge edge;
     edge.place = at;
     for (const int axis : {d, e}) {
-      const bool last = at[axis] == l.n[axis];
-      if (l.periodic[axis])
-        edge.copy = edge.copy || last;
-      else
-        edge.on_side = edge.on_side || last || at[axis] == 0;
+      const bool first = at[axis] == 0, last = at[axis] == l.n[axis];
+      edge.copy = edge.copy || (last && l.seam(axis, true));
+      edge.on_side = edge.on_side || (last && !l.seam(axis, true)) || (first && !l.seam(axis, false));
     }
     edge.at = l.index(at);
     for (const std::ptrdiff_t c : {edge.at, edge.at - s, edge.at - t, edge.at - s - t})

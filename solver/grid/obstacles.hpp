@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/grid/for_each.hpp"
+#include "solver/scene/box_cells.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
@@ -28,18 +29,20 @@ class Obstacles {
     int across = 0;        // then the direction across that surface,
     bool above = false;    // and whether the open cells are the upper ones along it
     bool on_side = false;  // of the tank, through which something flows: half of the edge is inside
-    // The copy, at the upper end of a period, of one at its lower end: the last cells have it beside them.
+    // The copy, at an upper seam, of one of the box above: the last cells have it beside them.
     bool copy = false;
     // Open faces around it: component and index, `faces` of them.
     std::array<std::pair<int, std::ptrdiff_t>, 4> face{};
     int faces = 0;
   };
 
-  // `flows`: the sides of the tank through which something flows, two a direction.
+  // Of the cells' part of the tank. `flows`: the sides of the tank through which something flows, two a
+  // direction.
   Obstacles(const Layout& cells, int dim, const Vec3& spacing, const std::vector<Box>& boxes,
             const std::array<bool, 6>& flows);
 
-  bool none() const { return cells_.empty(); }
+  // There are none in the whole tank.
+  bool none() const { return solid_.empty(); }
   // 1 in a cell of an obstacle, else 0; nullptr without obstacles. Ghosts included: beyond a side an
   // obstacle goes on.
   const char* solid() const { return none() ? nullptr : solid_.data(); }
@@ -58,6 +61,7 @@ class Obstacles {
     std::ptrdiff_t cell = 0;
     std::vector<std::ptrdiff_t> beside;
   };
+  void fill(const Layout& l, const BoxCells& box);
   void find_edges(const Layout& l, int d, int e, const std::array<bool, 6>& flows);
   void find_surface(const Layout& l, int dim);
   bool is_solid(std::ptrdiff_t c) const { return solid_[static_cast<std::size_t>(c)] != 0; }

@@ -9,13 +9,15 @@ namespace granvof {
 void ContinuityTree::grow(const Aperture& aperture) {
   const Layout& l = grid_.cells;
   steps_.clear();
-  std::vector<char> reached(l.size, 0);
+  constexpr int nowhere = -1;
+  std::vector<int> part_of(l.size, nowhere);
+  std::vector<char> drains;             // of every part
   std::vector<std::array<int, 3>> row;  // cells in the order in which they were reached
   row.reserve(l.count());
   const auto reach = [&](const std::array<int, 3>& at) {
-    char& seen = reached[static_cast<std::size_t>(l.index(at))];
-    if (seen != 0) return false;
-    seen = 1;
+    int& part = part_of[static_cast<std::size_t>(l.index(at))];
+    if (part != nowhere) return false;
+    part = static_cast<int>(drains.size()) - 1;
     row.push_back(at);
     return true;
   };
@@ -28,7 +30,7 @@ void ContinuityTree::grow(const Aperture& aperture) {
           std::array<int, 3> to = from;
           to[d] += upper ? 1 : -1;
           if (to[d] < 0 || to[d] >= l.n[d]) {
-            if (!l.periodic[d]) continue;
+            if (!l.periodic[d] || l.is_split(d)) continue;
             to[d] = (to[d] + l.n[d]) % l.n[d];
           }
           // The face at the lower end of the upper of the two; on the seam that of the first cell.
@@ -39,6 +41,7 @@ void ContinuityTree::grow(const Aperture& aperture) {
       }
     }
   };
+  drains.push_back(1);  // all that the fluid leaves is one
   for (int d = 0; d < grid_.dim; ++d) {
     for (const bool upper : {false, true}) {
       if (!grid_.side(d, upper).passes_fluid) continue;
@@ -50,15 +53,24 @@ void ContinuityTree::grow(const Aperture& aperture) {
     }
   }
   spread();
+  const char* solid = grid_.obstacles.solid();
   for_each_place(grid_.all_cells(), [&](const std::array<int, 3>& at) {
-    if (reach(at)) spread();
+    const std::ptrdiff_t c = l.index(at);
+    if (part_of[static_cast<std::size_t>(c)] != nowhere || (solid != nullptr && solid[c] != 0)) return;
+    drains.push_back(0);
+    reach(at);
+    spread();
   });
+  if (!l.is_cut()) return;
+  if (!parts_) parts_.emplace(grid_);
+  parts_->join(part_of, drains, aperture);
 }
 
 void ContinuityTree::close(const Boundary& boundary, const FaceField& flux_s, FaceField& flux_c) {
   gain_.fill(0.0);
   subtract_divergence(grid_, 1.0, flux_s, gain_);
   subtract_divergence(grid_, 1.0, flux_c, gain_);
+  if (parts_) parts_->even_out(gain_, flux_c);
   for (auto at = steps_.rbegin(); at != steps_.rend(); ++at) {
     const Step& step = *at;
     const double gain = gain_[step.cell];

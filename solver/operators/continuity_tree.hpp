@@ -2,21 +2,24 @@
 // with sides other than the top through which something flows.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/aperture.hpp"
+#include "solver/operators/continuity_parts.hpp"
 
 namespace granvof {
 
 // A tree over the open faces of the tank: every cell hands what it gains to the next on its way out through
 // the nearest side that passes the fluid; without one, to the first cell of its part of the tank, where the
-// sum is zero but for rounding.
+// sum is zero but for rounding. Of a tank that is cut among processes every slab has trees of its own, and
+// what their parts gain is handed on first (continuity_parts.hpp).
 class ContinuityTree {
  public:
   explicit ContinuityTree(const Grid& grid) : grid_(grid), gain_(grid) {}
 
-  // After the gate has moved, too.
+  // After the gate has moved, too. All processes at once, as close().
   void grow(const Aperture& aperture);
   // Adds to flux_c [m/s] what closes continuity, as close_continuity().
   void close(const Boundary& boundary, const FaceField& flux_s, FaceField& flux_c);
@@ -30,8 +33,9 @@ class ContinuityTree {
   };
 
   const Grid& grid_;
-  std::vector<Step> steps_;  // from the roots outwards
-  Field gain_;               // -div of both fluxes [1/s]
+  std::vector<Step> steps_;               // from the roots outwards
+  Field gain_;                            // -div of both fluxes [1/s]
+  std::optional<ContinuityParts> parts_;  // of a tank that is cut
 };
 
 }  // namespace granvof

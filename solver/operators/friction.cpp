@@ -32,6 +32,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       weight_(grid),
       residual_(grid),
       correction_(grid) {
+  if (grid.cells.is_cut() && grid.dim == 2) direct_of_slabs_.emplace(grid, scene);
   for (int p = 0; p < (grid.dim == 2 ? 1 : 3); ++p) {
     mu_edge_[p] = Field(grid);
     shear_[p] = Field(grid);
@@ -92,6 +93,13 @@ linear::Report Friction::solve_again(const SolidBalance& balance, const FaceIner
   return solve_by(balance, inertia, aperture, rheology, next.u_strain, next.u_s);
 }
 
+// Of the whole bed, where that pays.
+bool Friction::factorise(const FaceField& mass) {
+  const bool here =
+      direct_of_slabs_ ? direct_of_slabs_->factorise(box_, form(mass)) : direct_.factorise(box_, form(mass));
+  return everywhere(grid_.cells, here);
+}
+
 linear::Report Friction::solve_by(const SolidBalance& balance, const FaceInertia& inertia,
                                   const Aperture& aperture, const Rheology& rheology,
                                   const FaceField& u_strain, FaceField& u_s) {
@@ -110,7 +118,7 @@ linear::Report Friction::solve_by(const SolidBalance& balance, const FaceInertia
   apply(mass, u, r);
   set_own_diffusion(mass);
   set_weights(mass);
-  const bool thin = everywhere(grid_.cells, direct_.factorise(box_, form(mass)));
+  const bool thin = factorise(mass);
   if (!thin) set_multigrids();
   double first = 0.0,
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
@@ -137,6 +145,7 @@ linear::Report Friction::solve_by(const SolidBalance& balance, const FaceInertia
         apply(mass, p, q);
       },
       [&](const linear::ConstComponents& res, const linear::Components& z) {
+        if (thin && direct_of_slabs_) return direct_of_slabs_->apply(res, z);
         if (thin) return direct_.apply(res, z);
         for (int d = 0; d < grid_.dim; ++d) multigrid_[d].apply(res[d], z[d], smoothing);
       },

@@ -21,6 +21,7 @@
 #include "solver/operators/aperture.hpp"
 #include "solver/operators/box_of_grains.hpp"
 #include "solver/operators/friction_direct.hpp"
+#include "solver/operators/friction_direct_of_slabs.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/operators/strain.hpp"
@@ -98,6 +99,7 @@ class Friction {
   void hold_to_walls(const FaceInertia& inertia, const Rheology& rheology, int d, int e);
   void set_own_diffusion(const FaceField& mass);
   void set_multigrids();
+  bool factorise(const FaceField& mass);
   FrictionForm form(const FaceField& mass) const;
   void set_weights(const FaceField& mass);
   // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see
@@ -130,6 +132,7 @@ class Friction {
   std::vector<linear::Multigrid> multigrid_;  // one a component; none until a bed is not thin
   std::array<FaceField, 3> coefficient_;      // [component][direction] of the component's own diffusion
   FrictionDirect direct_;
+  std::optional<FrictionDirectOfSlabs> direct_of_slabs_;  // where the tank is cut, in two dimensions
   FaceField component_mass_, weight_, residual_, correction_;
 };
 

@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace granvof {
-namespace {
-
-// Mean square of the row lengths up to which a factorisation is cheaper than the 15 to 25 iterations of a
-// bed that is not thin; beds of some 20 cells.
-constexpr double longest_rows = 45.0 * 45.0;
-
-}  // namespace
 
 template <typename Visit>
 void FrictionDirect::for_each_face(const Range& box, Visit&& visit) const {

@@ -26,10 +26,14 @@ struct FrictionForm {
 
 class FrictionDirect {
  public:
+  // Mean square of the row lengths up to which a factorisation is cheaper than the 15 to 25 iterations of a
+  // bed that is not thin; beds of some 20 cells.
+  static constexpr double longest_rows = 45.0 * 45.0;
+
   explicit FrictionDirect(const Grid& grid) : grid_(grid) {}
 
-  // Numbers the unknown faces of the box and factorises, if that pays; false if not (thick beds, seams
-  // sides, three dimensions).
+  // Numbers the unknown faces of the box and factorises, if that pays; false if not (thick beds, seams,
+  // three dimensions).
   bool factorise(const Range& box, const FrictionForm& form);
   // z = A^-1 r on the unknown faces, 0 on the others of the box.
   void apply(const linear::ConstComponents& r, const linear::Components& z);

@@ -13,11 +13,11 @@ constexpr double slowest_sliding =
 // Of the fastest slip on Coulomb walls: a smaller change of it within a step passes for none.
 constexpr double settled_slip = 0.05;
 
-// Edges of plane (d, e) on a side of direction d, within the box.
+// Edges of plane (d, e) on a side of the tank across direction d, within the box.
 Range edges_on_side(const Grid& grid, const Range& box, int d, int e, bool upper) {
   Range wall = grid.edges(d, e);
   wall.lower[d] = upper ? grid.cells.n[d] : 0;
-  wall.upper[d] = wall.lower[d] + 1;
+  wall.upper[d] = wall.lower[d] + (grid.has_side(d, upper) ? 1 : 0);
   return common(wall, Grid::edges(box, d, e));
 }
 
@@ -40,14 +40,11 @@ void Friction::keep_normal_stress(const FaceField& u) {
   for (int d = 0; d < grid_.dim; ++d) {
     for (const bool upper : {false, true}) {
       if (!holds_by_friction(d, upper)) continue;
-      Range cells = box_;
-      cells.lower[d] = upper ? grid_.cells.n[d] - 1 : 0;
-      cells.upper[d] = cells.lower[d] + 1;
       const std::ptrdiff_t s = grid_.stride(d);
       const double two_by_h = 2.0 / grid_.h[d];
       const double *mu = normal_viscosity(d), *kinetic = lambda_.data(), *v = u[d].data();
       double* stress = normal_stress_[d].data();
-      for_each(grid_.cells, common(cells, box_),
+      for_each(grid_.cells, common(grid_.side_cells(d, upper), box_),
                [=](std::ptrdiff_t c) { stress[c] = (mu[c] - kinetic[c]) * (v[c + s] - v[c]) * two_by_h; });
       boundary_.exchange(normal_stress_[d]);
     }
@@ -55,8 +52,8 @@ void Friction::keep_normal_stress(const FaceField& u) {
 }
 
 bool Friction::holds_by_friction(int d, bool upper) const {
-  const double mu_w = boundary_.side(d, upper).friction;
-  return !grid_.cells.seam(d, upper) && mu_w > 0.0 && !std::isinf(mu_w);
+  const double mu_w = grid_.tank_side(d, upper).friction;  // every process asks, whoever has the side
+  return mu_w > 0.0 && !std::isinf(mu_w);
 }
 
 bool Friction::has_coulomb_walls() const {
@@ -103,7 +100,7 @@ bool Friction::slips_otherwise(const State& next) const {
   double fastest = slowest_sliding * velocity_, changed = 0.0;
   for_each_coulomb_wall([&](int d, bool upper, int e, const Range& wall) {
     const std::ptrdiff_t inside = upper ? -grid_.stride(d) : 0;
-    const double u_wall = boundary_.side(d, upper).velocity[e];
+    const double u_wall = grid_.tank_side(d, upper).velocity[e];
     const double *was = next.u_strain[e].data(), *is = next.u_s[e].data(), *m = marked_[e].data();
     fastest = max_over(grid_.cells, wall, fastest,
                        [=](std::ptrdiff_t c) { return m[c + inside] * std::fabs(is[c + inside] - u_wall); });

@@ -93,7 +93,7 @@ double FluidViscosity::power_on(const FaceField& u_c, const FaceInertia& inertia
   const auto power = [=](std::ptrdiff_t c) { return m[c] * v[c] * (b[c] - a[c]); };
   double total = sum_over(grid_.cells, grid_.inner_faces(d), power);
   for (const bool upper : {false, true})
-    if (grid_.side(d, upper).passes_fluid)
+    if (grid_.tank_side(d, upper).passes_fluid)
       total += 0.5 * sum_over(grid_.cells, grid_.side_faces(d, upper), power);
   return total * grid_.cell_volume;
 }
@@ -101,7 +101,7 @@ double FluidViscosity::power_on(const FaceField& u_c, const FaceInertia& inertia
 // Stress on a side times the velocity there. Where that velocity is given, no momentum is solved of the half
 // cell behind it: the side gives what its shear takes, too.
 double FluidViscosity::power_on_side(const FaceField& u_c, int d, bool upper) const {
-  const bool solved = grid_.side(d, upper).passes_fluid;
+  const bool solved = grid_.tank_side(d, upper).passes_fluid;
   const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0, outside = upper ? 0 : -s;
   const Range faces = grid_.side_faces(d, upper);
   const double *mu = viscosity_.data(), *v = u_c[d].data();

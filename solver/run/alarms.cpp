@@ -114,7 +114,7 @@ std::span<const Alarm> Alarms::list() {
           "outlet load", parts::outlet,
           "grains lean on an outlet, which holds them: they leave at the speed at which they arrive, not by "
           "their own weight",
-          [](const Watched& w) { return w.monitors.outlet_load(w.state) / scales_of(w.scene).pressure; },
+          [](const Watched& w) { return w.monitors.outlet_load() / scales_of(w.scene).pressure; },
           [](const Watched&) { return largest_outlet_load; }},
       Alarm{"granular bounds", parts::granular_temperature, "Theta runs into its stated bounds",
             [](const Watched& w) { return w.state.energy.theta_bounds / w.turnover; },

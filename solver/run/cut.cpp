@@ -13,16 +13,6 @@ void check_cut(const Scene& scene, int processes) {
   const auto refuse = [&](const std::string& what) {
     throw CaseError(fmt::format("{}: {}", scene.file.string(), what));
   };
-  if (!scene.obstacles.empty())
-    refuse(fmt::format(
-        "obstacle: got {} of them and {} processes, allowed: one process where there are obstacles",
-        scene.obstacles.size(), processes));
-  for (int side = 0; side < 6; ++side)
-    if (side != top && side_rule(scene, side).is_open())
-      refuse(
-          fmt::format("walls: got an inlet or an outlet and {} processes, allowed: one process unless the "
-                      "open top is all that the tank's sides let through",
-                      processes));
   const int most = most_slabs(scene.grid.cells, scene.dimensions);
   if (processes > most)
     refuse(fmt::format(

@@ -5,8 +5,7 @@
 
 namespace granvof {
 
-// Throws CaseError where so many processes cannot share the tank: too few rows, obstacles, flow through other
-// sides than an open top.
+// Throws CaseError where so many processes cannot share the tank: it has too few rows.
 void check_cut(const Scene& scene, int processes);
 
 }  // namespace granvof

@@ -170,7 +170,7 @@ void Faces::add_potential_out(int d, bool upper) {
 // What passes a side takes its energy along, and the pressure on the side works on it.
 void Faces::add_side(int d, bool upper) {
   add_potential_out(d, upper);
-  const SideRule& side = grid_.side(d, upper);
+  const SideRule& side = grid_.tank_side(d, upper);
   const Range faces = grid_.side_faces(d, upper);
   const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0;
   const double *q = trace_.flux_c[d].data(), *v = next_.u_c[d].data(), *m = trace_.inertia.fluid[d].data(),
@@ -183,7 +183,8 @@ void Faces::add_side(int d, bool upper) {
     work_.kinetic_out += sign * dt * area * total([=](std::ptrdiff_t c) {
                            return 0.5 * m[c] / (1.0 - f[c]) * v[c] * v[c] * q[c];
                          });
-    if (const double* given = side_pressure_; given && side.pressure) {
+    if (side.pressure) {
+      const double* given = side_pressure_;  // null where another process has the side
       const std::ptrdiff_t beyond = upper ? 0 : -s;
       const double* solved = trace_.flux_c_solved[d].data();
       work_.side_pressure -=
@@ -220,7 +221,7 @@ void Faces::add_half_cells(int d, bool upper) {
   const double half = 0.5 * grid_.cell_volume, g = confined_[d], dt = dt_, dt_h = dt_ / grid_.h[d];
   work_.side_pressure -=
       half * dt * g * rho_s * sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) { return qs[c]; });
-  if (grid_.side(d, upper).passes_fluid) {
+  if (grid_.tank_side(d, upper).passes_fluid) {
     work_.side_pressure += half * dt_h * sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
                              return qs[c] * (p[c] - p[c - s]);
                            });

@@ -44,13 +44,14 @@ void Monitors::update(const State& s, double liquid_left, double solid_left) {
   solid_max_ = max_over(grid_.cells, grid_.all_cells(), solid_max_, [=](std::ptrdiff_t c) { return f[c]; });
   solid_min_ =
       -max_over(grid_.cells, grid_.all_cells(), -solid_min_, [=](std::ptrdiff_t c) { return -f[c]; });
+  outlet_load_ = load_on_outlets(s);
 }
 
-double Monitors::outlet_load(const State& s) const {
+double Monitors::load_on_outlets(const State& s) const {
   const double* p = s.p_s.data();
   double load = 0.0;
   grid_.for_each_passing_side([&](int d, bool upper) {
-    if (grid_.side(d, upper).passes_grains)
+    if (grid_.tank_side(d, upper).passes_grains)
       load = max_over(grid_.cells, grid_.side_cells(d, upper), load, [=](std::ptrdiff_t c) { return p[c]; });
   });
   return load;

@@ -23,7 +23,8 @@ class Monitors {
   double liquid_volume_error() const { return liquid_error_; }
   double solid_fraction_max() const { return solid_max_; }  // largest ever [-]
   double solid_fraction_min() const { return solid_min_; }  // smallest ever [-]
-  double outlet_load(const State& s) const;  // largest P_s of cells beside sides that grains pass [Pa]
+  // Largest P_s of cells beside sides that grains pass, of the state of the last update() [Pa].
+  double outlet_load() const { return outlet_load_; }
   // Empty, or which field is not finite.
   std::string not_finite(const State& s) const;
 
@@ -38,10 +39,13 @@ class Monitors {
   void restore(const Values& v);
 
  private:
+  double load_on_outlets(const State& s) const;
+
   const Grid& grid_;
   double tank_;  // [m3]
   double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0, solid_left_ = 0.0;
   double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0, solid_min_ = 1.0;
+  double outlet_load_ = 0.0;
 };
 
 }  // namespace granvof

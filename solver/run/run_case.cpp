@@ -307,7 +307,7 @@ std::optional<TimeLoop::Ending> Run::asked_to_stop() const {
 }  // namespace
 
 int run_case(const Scene& scene, const RunOptions& options) {
-  check_memory(scene);
+  check_memory(scene, processes_of(options));
   check_cut(scene, processes_of(options));
   omp_set_num_threads(std::max(1, options.threads));
   listen_to_stop_signals();

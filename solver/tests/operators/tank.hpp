@@ -36,7 +36,8 @@ inline void make_periodic(Scene& scene, int d) {
 }
 
 struct Tank {
-  explicit Tank(Scene given) : scene(std::move(given)), grid(scene), boundary(grid) {}
+  explicit Tank(Scene given, const Communicator* processes = nullptr)
+      : scene(std::move(given)), grid(scene, processes), boundary(grid) {}
   Tank(const Tank&) = delete;
   Tank& operator=(const Tank&) = delete;
   Tank(Tank&&) = delete;

@@ -4,6 +4,7 @@
 #include "solver/operators/continuity_closure.hpp"
 #include "solver/operators/continuity_tree.hpp"
 #include "solver/tests/operators/tank.hpp"
+#include "solver/tests/team.hpp"
 
 namespace granvof {
 namespace {
@@ -30,7 +31,8 @@ Scene gated(Scene scene) {
 
 // Random fluxes of both phases, the gate closed to them; then the flux that closes continuity.
 struct Closed {
-  Closed(Scene given, double time, bool by_tree = false) : s(std::move(given)), aperture(s.grid, s.scene) {
+  Closed(Scene given, double time, bool by_tree = false, const Communicator* processes = nullptr)
+      : s(std::move(given), processes), aperture(s.grid, s.scene) {
     aperture.update(time);
     flux_s = s.random_faces(-1e-3, 1e-3);
     before = s.random_faces(-1e-3, 1e-3);
@@ -161,6 +163,55 @@ TEST(ContinuityTree, ClosesEveryTankThroughOpenFacesOnly) {
         });
     }
   }
+}
+
+// Processes that share a tank each close their slab: with one part or several, that drain or do not, along
+// and across the cuts.
+TEST(ContinuityTree, ClosesTheSlabsOfSeveralProcesses) {
+  using Boxes = std::vector<Box>;
+  const auto wide = [](const Boxes& obstacles) {
+    Scene scene = test::box_scene(2, {16, 6, 1}, {1.6, 0.9, 0.8});
+    scene.obstacles = obstacles;
+    return scene;
+  };
+  const Box plate{{0.3, 0.45, 0.0}, {1.3, 0.6, 0.8}};  // parts the slabs in the middle in two
+  const Box wall{{0.5, 0.0, 0.0}, {0.6, 0.9, 0.8}};    // parts the tank
+  const Box step{{0.7, 0.0, 0.0}, {0.9, 0.3, 0.8}}, one{{1.5, 0.15, 0.0}, {1.6, 0.3, 0.8}};
+  const auto with_outlet = [](Scene scene, int side) {
+    scene.sides[side].kind = SideKind::outlet;
+    return scene;
+  };
+  const auto in_a_ring = [](Scene scene) {
+    test::make_periodic(scene, 0);
+    return scene;
+  };
+  const std::vector<Scene> scenes{wide({plate}),
+                                  wide({wall, step}),
+                                  in_a_ring(wide({plate, one})),
+                                  in_a_ring(wide({wall})),
+                                  with_outlet(wide({}), right),
+                                  with_outlet(wide({plate, step}), left),
+                                  with_outlet(wide({wall}), right),
+                                  with_outlet(wide({plate}), bottom),
+                                  gated(with_outlet(wide({plate}), right))};
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (const int processes : {2, 3, 4}) {
+      SCOPED_TRACE(testing::Message() << "tank " << i << ", " << processes << " processes");
+      test::Team team(processes, test::Boxes::slabs);
+      ASSERT_NO_THROW(team.run([&](int rank, const Communicator& communicator) {
+        for (const double time : {-1.0, 0.4}) {
+          const Closed c(scenes[i], time, true, &communicator);
+          EXPECT_GT(c.residual(c.before), 1e-3) << rank;
+          EXPECT_LT(c.residual(c.after), 1e-14) << rank;
+          for (const int d : {0, 1})
+            c.s.each(c.s.grid.all_faces(d), [&](int, int, int, std::ptrdiff_t at) {
+              if (c.aperture[d][at] == 0.0) {
+                EXPECT_EQ(c.after[d][at], 0.0);
+              }
+            });
+        }
+      }));
+    }
 }
 
 TEST(ContinuityClosure, APeriodicTankHasNoFirstColumn) {

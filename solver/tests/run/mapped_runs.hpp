@@ -20,9 +20,6 @@ namespace granvof::test {
 // Of the largest value of a field, after one step.
 inline constexpr double mapped_agreement = 1e-6;
 
-inline const std::vector<std::string> tightly_solved{"numerics.volume_tolerance=1e-12",
-                                                     "numerics.linear_tolerance=1e-8"};
-
 inline constexpr int cells = -1;  // in place of the direction of faces
 
 // Where a place is in the other run, and which component is which there with which sign.

@@ -61,6 +61,10 @@ volume_tolerance = 1e-12
 linear_tolerance = 1e-8
 )";
 
+// The same as overrides.
+inline const std::vector<std::string> tightly_solved{"numerics.volume_tolerance=1e-12",
+                                                     "numerics.linear_tolerance=1e-8"};
+
 // The same tank another way: its name in a test's, and what is set for it.
 struct Variant {
   std::string name;
