@@ -8,6 +8,7 @@ import re
 
 SWITCH = "ci/mutation/switch.hpp"
 INCLUDE = f'#include "{SWITCH}"\n'
+SWITCHED = "GRANVOF_MUTATION_SWITCH"  # defined there
 ASSIGNMENT = re.compile(r"(?<![=!<>+\-*/%&|^])[+\-*/%&|^]?=(?!=)|<<=|>>=|\+\+|--")
 WORD = re.compile(r'"(?:\\.|[^"\\\n])*"|' r"[\w.]+|[+\-*/%&|<>=!^]+|[^\w\s]")
 OPENING, CLOSING = "([{", ")]}"
@@ -184,6 +185,15 @@ def replaced(text, first, last, kind, members):
     on = "on_at_start" if kind == "constant" else "on"
     arms = "".join(f"::granvof::mutation::{on}<0x{number}u>() ? ({line_free(changed)}) : " for number, changed in with_fault)
     return f"({arms}({line_free(own)}))"
+
+
+def where_switched(text, changed):
+    """A header that is as it was, line by line, where the switch is not included: the preprocessor's text of what takes no fault
+    stays the same. Its first line is a comment."""
+    first, rest = text.split("\n", 1)
+    if not first.startswith("//"):
+        raise NoPlace("the first line of a header with faults is a comment")
+    return f"#ifndef {SWITCHED}\n{rest}#else\n{changed}#endif\n"
 
 
 def line_free(changed):

@@ -1,8 +1,18 @@
-// Which fault of ci/mutants is in force, in a tree that holds all of them (ci/mutation/schema.py). Set from
+// Which fault of ci/mutants is in force, in a tree that holds all of them (ci/mutation/cpp.py). Set from
 // outside:
 //   GRANVOF_MUTANT=1a2b3c4d       the one fault that is in force; none without it
 //   GRANVOF_MUTANTS_REACHED=FILE  adds a line to FILE for each place that is reached
 #pragma once
+
+// Faults make odd code. Where warnings are errors, those behind this line stay warnings.
+#pragma GCC diagnostic warning "-Wall"
+#pragma GCC diagnostic warning "-Wextra"
+#pragma GCC diagnostic warning "-Wpedantic"
+#pragma GCC diagnostic warning "-Wshadow"
+#pragma GCC diagnostic warning "-Wconversion"
+
+// Headers have their faults where this is defined (ci/mutation/tree.py).
+#define GRANVOF_MUTATION_SWITCH
 
 #include <atomic>
 #include <cstdint>

@@ -3,10 +3,11 @@
 import subprocess
 import time
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from granvof_files import json_in, json_of, write_json
-from mutation import process
+from mutation import process, workers
 
 LADDERS = {"unit": "unit", "verification": "ladder"}  # label of a test -> whom it belongs to
 PATIENCE, SLOWER = 20.0, 4.0  # a test may take so many seconds and so many times longer than without a fault
@@ -49,45 +50,56 @@ def folder_of(program, build):
     return "/".join(part for part in parts[:-1] if part != "tests")
 
 
-def without_fault(tests, build, scratch, kept, say):
+def without_fault(tests, build, scratch, kept, say, at_once=1):
     """Times each test and notes what it reaches; `kept` (a file) holds what an earlier call found for the same programs.
     Names of those that fail without any fault."""
-    before = {}
-    if kept.exists():
-        before = {(entry["name"], entry["stamp"]): entry for entry in json_of(kept)}
-    notes, failed = [], []
-    for index, test in enumerate(tests):
-        stamp = Path(test.program).stat().st_mtime_ns
-        entry = before.get((test.name, stamp))
-        if entry is None:
-            reached = scratch / "reached"
-            reached.unlink(missing_ok=True)
-            begun = time.monotonic()
-            ended = process.run([test.program, *test.arguments], build, 900.0, scratch,
-                                {**test.environment, "GRANVOF_MUTANTS_REACHED": str(reached)})
-            entry = {"name": test.name, "stamp": stamp, "seconds": round(time.monotonic() - begun, 3), "ended": ended.code,
-                     "reached": sorted(set(reached.read_text().split())) if reached.exists() else []}
-            if index % 50 == 0:
-                say(f"without a fault: {index} of {len(tests)} tests")
-        test.seconds, test.reached = entry["seconds"], entry["reached"]
-        notes.append(entry)
-        if entry["ended"] != 0:
-            failed.append(test.name)
-        if index % 50 == 49 or index + 1 == len(tests):
-            write_json(kept, notes + [entry for key, entry in before.items() if entry not in notes])
-    return failed
+    before = {(entry["name"], entry["stamp"]): entry for entry in json_of(kept)} if kept.exists() else {}
+    stamps = {test.program: Path(test.program).stat().st_mtime_ns for test in tests}
+    notes = {test.name: before.get((test.name, stamps[test.program])) for test in tests}
+    due = [test for test in tests if notes[test.name] is None]
 
+    def keep():
+        of_others = [entry for entry in before.values() if entry not in notes.values()]
+        write_json(kept, [entry for entry in notes.values() if entry] + of_others)
 
-def groups(tests, mutant):
-    """What to start for a fault, in order: the tests that reach its place, program by program, those of its own folder first,
-    then the quick ones."""
-    by_program = {}
+    look = partial(noted, build=build, stamps=stamps)
+    for index, (test, entry) in enumerate(workers.each(due, look, at_once, scratch), 1):
+        notes[test.name] = entry
+        if index % 50 == 0:
+            say(f"without a fault: {index} of {len(due)} tests")
+            keep()
+    if due:
+        keep()
     for test in tests:
-        if mutant.number in test.reached:
+        test.seconds, test.reached = notes[test.name]["seconds"], notes[test.name]["reached"]
+    return [test.name for test in tests if notes[test.name]["ended"] != 0]
+
+
+def noted(test, scratch, build, stamps):
+    """What a test without a fault takes, and the faults it reaches."""
+    reached = scratch / "reached"
+    reached.unlink(missing_ok=True)
+    begun = time.monotonic()
+    ended = process.run([test.program, *test.arguments], build, 900.0, scratch,
+                        {**test.environment, "GRANVOF_MUTANTS_REACHED": str(reached)})
+    return {"name": test.name, "stamp": stamps[test.program], "seconds": round(time.monotonic() - begun, 3),
+            "ended": ended.code, "reached": sorted(set(reached.read_text().split())) if reached.exists() else []}
+
+
+def groups(tests, mutant, known=""):
+    """What to start for a fault, in order: the test that noticed it before, then those that reach its place, program by
+    program, those of its own folder first, then the quick ones."""
+    first, by_program = [], {}
+    for test in tests:
+        if mutant.number not in test.reached:
+            continue
+        if test.name == known:
+            first.append([test])
+        else:
             by_program.setdefault(test.program if test.filter else test.name, []).append(test)
     def cost(members):
         return members[0].folder != mutant.folder, sum(test.seconds for test in members)
-    return sorted(by_program.values(), key=cost)
+    return first + sorted(by_program.values(), key=cost)
 
 
 def command_of(members):
@@ -104,9 +116,10 @@ def noticed_by(members, ended):
     return f"{Path(members[0].program).name}, {ended.how}" if members[0].filter else members[0].name
 
 
-def judge(tests, mutant, build, scratch):
-    """("noticed", by whom), ("survived", ""), or ("not reached", "") where no test passes its place."""
-    due = groups(tests, mutant)
+def judge(tests, mutant, build, scratch, known=""):
+    """("noticed", by whom), ("survived", ""), or ("not reached", "") where no test passes its place. `known`: the test that
+    noticed it before."""
+    due = groups(tests, mutant, known)
     for members in due:
         limit = PATIENCE + SLOWER * sum(test.seconds for test in members)
         ended = process.run(command_of(members), build, limit, scratch, {**members[0].environment, "GRANVOF_MUTANT": mutant.number})
@@ -115,19 +128,20 @@ def judge(tests, mutant, build, scratch):
     return ("survived" if due else "not reached"), ""
 
 
-def judge_python(mutant, tree, scratch):
-    """The same for what is not compiled, by the Python tests of the comparison; the file is altered already."""
+def judge_python(mutant, tree, scratch, known=""):
+    """The same for what is not compiled, by the Python tests of the comparison; the file is altered already. `known`: the file
+    whose test noticed it before, and comes first."""
     ended = process.run(["/usr/bin/python3", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "--import-mode=importlib",
-                         *python_tests(mutant, tree)], tree, 600.0, scratch, {"PYTHONDONTWRITEBYTECODE": "1"})
+                         *python_tests(mutant, tree, known)], tree, 600.0, scratch, {"PYTHONDONTWRITEBYTECODE": "1"})
     if ended.code == 0:
         return "survived", ""
     failed = [line.split(" ")[1] for line in ended.output.splitlines() if line.startswith(("FAILED ", "ERROR "))]
     return "noticed", failed[0].split("/")[-1] if failed else f"pytest, {ended.how}"
 
 
-def python_tests(mutant, tree):
-    """Those that name the module first, then all."""
+def python_tests(mutant, tree, known=""):
+    """The known one first, then those that name the module, then all."""
     module = Path(mutant.file).stem
-    own = [path for path in sorted((tree / PYTHON_TESTS).glob("test_*.py")) if module in path.read_text(encoding="utf-8")]
-    rest = [path for path in sorted((tree / PYTHON_TESTS).glob("test_*.py")) if path not in own]
-    return [path.relative_to(tree) for path in own + rest]
+    def place(path):
+        return path.name != known.split("::")[0], module not in path.read_text(encoding="utf-8"), path
+    return [path.relative_to(tree) for path in sorted((tree / PYTHON_TESTS).glob("test_*.py"), key=place)]

@@ -2,6 +2,7 @@
 
 import datetime
 import subprocess
+from collections import Counter
 
 from granvof_files import json_of, write_json
 
@@ -55,7 +56,7 @@ def section(mutants, results, commit):
     entries = [{**results[mutant.number], "why": mutant.why} for mutant in mutants if mutant.number in results]
     by_folder = {}
     for entry in entries:
-        by_folder.setdefault("/".join(entry["file"].split("/")[:2]), []).append(entry)
+        by_folder.setdefault(folder_of(entry), []).append(entry)
     states = [state(entry) for entry in entries]
     done, nobody, unseen = (states.count(kind) for kind in ("noticed", "survived", "cannot be noticed"))
     of = len(entries) - unseen
@@ -63,8 +64,9 @@ def section(mutants, results, commit):
             f"{done} were noticed" + (f" ({100 * done / of:.1f} %)" if of else "")
             + f", {nobody} by nobody, {of - done - nobody} are not yet tried against all, {unseen} cannot be noticed.",
             "Each is tried against the unit tests, what survives these against the verification ladder; apart from that, "
-            f"a share against the rows of make verify alone, on the runs that cost little: {share(entries, 'rows')} noticed. "
-            "Where a fault was noticed, those that come after it in the order were not asked."]
+            f"a share against the rows of make verify alone, on the runs that cost little: {share(entries, 'rows')} noticed"
+            f"{out_of_reach(entries)}. "
+            "Where a fault was noticed, those that come after it in the order were not asked." + of_other_commits(entries, commit)]
     columns = ["folder", "faults", *COLUMNS.values(), "noticed", "survived", "cannot be noticed"]
     rows = []
     for folder, members in sorted(by_folder.items()) + [("all", entries)]:
@@ -82,6 +84,27 @@ def section(mutants, results, commit):
         tables.append({"caption": "Noticed by whom", "columns": ["file", "fault", "change", *COLUMNS.values()], "rows": found})
     return {"title": "Faults that would be noticed", "text": text, "figures": [], "tables": tables, "commit": commit,
             "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def out_of_reach(entries):
+    """Of the rows: how many faults stand where none of them passes, and in which folders, of those that none reaches at all."""
+    missed = [folder_of(entry) for entry in entries if entry.get("rows", {}).get("verdict") == "not reached"]
+    met = {folder_of(entry) for entry in entries if entry.get("rows", {}).get("verdict", "not reached") != "not reached"}
+    if not missed:
+        return ""
+    never = sorted(set(missed) - met)
+    return f"; {len(missed)} more stand where no row of these runs passes" + (f" (none passes {', '.join(never)})" if never else "")
+
+
+def folder_of(entry):
+    return "/".join(entry["file"].split("/")[:2])
+
+
+def of_other_commits(entries, commit):
+    """A sentence, where not all was tried on one commit."""
+    others = Counter(entry[by].get("commit", entry.get("commit", "")) for entry in entries for by in COLUMNS if by in entry)
+    others.pop(commit, None)
+    return f" Not all on this commit: {', '.join(f'{n} of the trials on {name}' for name, n in others.most_common())}." if others else ""
 
 
 def by_whom(entry, key):

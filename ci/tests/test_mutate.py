@@ -4,11 +4,12 @@ import importlib.machinery
 import importlib.util
 import json
 import subprocess
+import threading
 from pathlib import Path
 
 import pytest
 
-from mutation import cpp, listed, process, tests, told
+from mutation import cpp, listed, process, tests, told, tree, workers
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -61,6 +62,43 @@ def test_own_folder_first_and_up_to_the_first_that_fails(tmp_path, shell):
     assert tests.judge(there[2:3], mutant, tmp_path, tmp_path) == ("not reached", "")
 
 
+def test_who_noticed_it_before_is_asked_first_and_alone(tmp_path, shell):
+    mutant = listed.Mutant("solver/run/a.cpp", "n", "a", "b")
+    log = tmp_path / "log"
+    program = shell(tmp_path / "late", f"echo $1 >> {log}; exit 1\n")
+    there = [a_test("quick", program, [mutant.number], "solver/run", 0.01, by="quick"),
+             a_test("T.late", program, [mutant.number], "solver/grid", 9.0, by="T.late")]
+    assert tests.judge(there, mutant, tmp_path, tmp_path, "T.late")[0] == "noticed"
+    assert log.read_text().split() == ["--gtest_filter=T.late"]
+    there[1].reached = []  # not where it does not reach the place any more
+    tests.judge(there, mutant, tmp_path, tmp_path, "T.late")
+    assert log.read_text().split()[1:] == ["--gtest_filter=quick"]
+
+
+def test_python_tests_that_noticed_before_come_first(tmp_path):
+    (tmp_path / "compare/tests").mkdir(parents=True)
+    for name, text in (("a", ""), ("b", "import sums"), ("c", "")):
+        (tmp_path / f"compare/tests/test_{name}.py").write_text(text)
+    mutant = listed.Mutant("compare/sums.py", "n", "a", "b")
+    assert [path.stem for path in tests.python_tests(mutant, tmp_path, "test_c.py::test_x")] == ["test_c", "test_b", "test_a"]
+
+
+def test_several_at_a_time_each_in_a_place_of_its_own(tmp_path):
+    both = threading.Barrier(2, timeout=10)
+
+    def work(item, place):
+        if item < 2:
+            both.wait()  # needs two at a time
+        if item == 3:
+            raise ValueError("three")
+        return place
+
+    found = dict(workers.each([0, 1], work, 2, tmp_path))
+    assert len(set(found.values())) == 2 and all(place.is_dir() for place in found.values())
+    with pytest.raises(ValueError, match="three"):
+        list(workers.each([3], work, 2, tmp_path))
+
+
 def test_a_program_that_does_not_end_is_noticed(tmp_path, shell, monkeypatch):
     monkeypatch.setattr(tests, "PATIENCE", 0.3)
     mutant = listed.Mutant("solver/run/a.cpp", "n", "a", "b")
@@ -93,6 +131,17 @@ def test_the_score_counts_what_was_tried():
     assert shown["tables"][0]["rows"][0] == ["solver/run", 4, "1 of 4", "1 of 2", "0 of 1", 2, 1, 0]
     assert [row[1] for row in shown["tables"][1]["rows"]] == ["missed", "open"]
     assert [row[3:] for row in shown["tables"][2]["rows"]] == [["T.t", "–", "survived"], ["survived", "T.t", "–"]]
+    assert "Not all on this commit" not in shown["text"][1]
+    assert "Not all on this commit: 7 of the trials on c." in told.section(mutants, results, "later")["text"][1]
+
+
+def test_rows_say_where_they_do_not_pass():
+    known = [entry("seen", unit="noticed", rows="noticed"), entry("missed", unit="noticed", rows="not reached")]
+    mutant, found = entry("laid", unit="noticed", rows="not reached")
+    found["file"] = "compare/lay/lay.py"
+    results = {one["number"]: one for _, one in known} | {mutant.number: found}
+    said = told.section([one for one, _ in known] + [mutant], results, "c")["text"][1]
+    assert "1 of 3 noticed; 2 more stand where no row of these runs passes (none passes compare/lay)." in said
 
 
 def test_a_reason_takes_a_fault_out_of_the_score():
@@ -105,7 +154,7 @@ def test_a_reason_takes_a_fault_out_of_the_score():
 
 # A project of one header, one program and its tests: 1 notices what 2 does not, and nothing looks at `unread`.
 TOY = {
-    "solver/toy/toy.hpp": "#pragma once\n\n#include <cstdlib>\n\ninline int one() {\n  return 1 + 0;\n}\n"
+    "solver/toy/toy.hpp": "// A toy.\n#pragma once\n\n#include <cstdlib>\n\ninline int one() {\n  return 1 + 0;\n}\n"
                           "inline int two() {\n  return 2 + 0;\n}\ninline int unread() {\n  return 3 + 0;\n}\n",
     "solver/toy/main.cpp": '#include "solver/toy/toy.hpp"\nint main(int n, char** a) {\n'
                            "  const int sum = one() + two() + (unread() > 0 ? 0 : 9);\n"
@@ -162,6 +211,12 @@ def test_what_was_found_is_kept_and_not_tried_again(toy):
     assert "[1/" not in ended.stdout and (toy / "out/mutate/tree/build/count").read_text() == before  # nothing is built for it
 
 
+def test_what_is_tried_once_more_keeps_what_others_found(toy):
+    mutate(toy)
+    mutate(toy, "--only", "two", "--against", "unit")
+    assert verdicts(toy)["two"] == {"unit": "survived", "ladder": "noticed"}
+
+
 def test_a_sample_is_of_that_size(toy):
     mutate(toy, "--sample", "2", "--against", "unit")
     assert len(verdicts(toy)) == 2
@@ -184,6 +239,25 @@ def test_a_fault_that_no_longer_applies_ends_with_its_name(toy):
 def test_unknown_names_are_refused(toy):
     ended = mutate(toy, "--only", "nothing")
     assert ended.returncode == 2 and "no fault has nothing in its file or name" in ended.stderr
+
+
+def preprocessed(directory, name):
+    return subprocess.run(["g++", "-std=c++20", "-I.", "-E", name], cwd=directory, check=True, capture_output=True, text=True).stdout
+
+
+def test_who_calls_no_law_is_compiled_as_without_faults(toy, tmp_path):
+    for name, text in (("scene/scene.hpp", '#include "solver/toy/toy.hpp"\n'), ("output/name.cpp", '#include "solver/scene/scene.hpp"\n'),
+                       ("run/call.cpp", '#include "solver/scene/scene.hpp"\nint called() { return one(); }\n'),
+                       ("run/call.hpp", '#include "solver/toy/toy.hpp"\nint called();\n'),
+                       ("tests/run/test_call.cpp", '#include "solver/run/call.hpp"\n')):
+        (toy / "solver" / name).parent.mkdir(parents=True, exist_ok=True)
+        (toy / "solver" / name).write_text(text)
+    places, _ = listed.places(listed.read(toy / "ci/mutants"), toy)
+    tree.write(toy, tmp_path / "tree", places)
+    for name in ("solver/output/name.cpp", "solver/tests/run/test_call.cpp"):
+        assert preprocessed(tmp_path / "tree", name) == preprocessed(toy, name)  # the cache has it
+    for name in ("solver/run/call.cpp", "solver/toy/main.cpp"):
+        assert "1 + 1" in preprocessed(tmp_path / "tree", name)
 
 
 def test_a_python_file_is_altered_and_put_back(toy, tmp_path):

@@ -57,6 +57,23 @@ TEST(Period, RipplesOnAFlankAreNotCycles) {
   EXPECT_NEAR(found->period, 1.0, 0.01);
 }
 
+TEST(Period, AmplitudeIsHalfOfTheRange) {
+  const Curve curve =
+      sampled(10.0, 5000, [](double t) { return 0.1 + 0.03 * std::sin(2.0 * std::numbers::pi * t); });
+  EXPECT_NEAR(oscillation(curve, {0.0, 10.0})->amplitude, 0.03, 1e-6);
+}
+
+// Late cycles of 0.7 rms are cycles: only what stays within 0.2 rms is a ripple.
+TEST(Period, CyclesThatHaveDecayedCount) {
+  const Curve curve = sampled(10.0, 5000, [](double t) {
+    return (t < 3.0 ? 1.0 : 0.3) * std::sin(2.0 * std::numbers::pi * (t - 0.25));
+  });
+  const auto found = oscillation(curve, {0.0, 10.0});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->cycles, 9);  // between upward crossings at 0.25 and 9.25
+  EXPECT_NEAR(found->period, 1.0, 0.01);
+}
+
 TEST(Period, NeedsTwoCycles) {
   const auto sine = [](double t) { return std::sin(2.0 * std::numbers::pi * t / 4.0); };
   EXPECT_FALSE(oscillation(sampled(6.0, 600, sine), {0.0, 6.0}));

@@ -14,7 +14,7 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia) {
   const Layout& l = grid.cells;
   const int n = l.n[0];
   // A cell of at least f_s gives its x-faces at least half of that.
-  constexpr double least = 0.5 * least_solid_fraction;
+  const double least = 0.5 * least_solid_fraction;
   const double* face = inertia.f_s[0].data();
   const Range grains = bounds_of_rows(l, [=](int j, int k) {
     const double* row = face + l.index(0, j, k);

@@ -1,5 +1,8 @@
 // A box that is cut into slabs: where the cuts are, what passes between slabs, and the box in one piece
 // again.
+#include <array>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "solver/grid/reduce.hpp"
@@ -32,10 +35,20 @@ TEST(Slabs, LargeOnesBeginWhereSeveralCoarseLevelsDo) {
   EXPECT_EQ(slab(999, 3, 2).first % 16, 0);
 }
 
+// Each begins at the nearest place that is a whole unit: the last one takes no more than half of one for it.
+TEST(Slabs, BeginNearestToTheirShare) {
+  for (const auto& [rows, ranks, unit] :
+       {std::array{10, 4, 1}, std::array{130, 4, 2}, std::array{999, 3, 16}})
+    for (int rank = 0; rank < ranks; ++rank)
+      EXPECT_LE(std::fabs(slab(rows, ranks, rank).first - 1.0 * rows * rank / ranks), 0.5 * unit)
+          << rank << " of " << ranks;
+}
+
 TEST(Slabs, AreCutAcrossTheLongestDirectionOfTheFloor) {
   EXPECT_EQ(direction_of_cut({20, 90, 1}, 2), 0);
   EXPECT_EQ(direction_of_cut({20, 90, 40}, 3), 2);
   EXPECT_EQ(direction_of_cut({40, 90, 20}, 3), 0);
+  EXPECT_EQ(direction_of_cut({40, 90, 40}, 3), 2);  // whose layers lie together in memory
   EXPECT_EQ(most_slabs({20, 90, 1}, 2), 5);
   EXPECT_EQ(most_slabs({3, 90, 1}, 2), 1);
 }

@@ -1,4 +1,7 @@
 // What is seen across obstacles and the gate: nothing of what is beyond.
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "solver/grid/inner_walls.hpp"
@@ -10,16 +13,20 @@ namespace {
 using test::box_scene;
 using test::Tank;
 
-// 6 x 6 cells; an obstacle of two rows on the floor.
+constexpr Box floor_of_two_rows{{0.0, 0.0, 0.0}, {0.6, 0.2, 1.0}};
+
+// 6 x 6 cells; obstacles, of two rows on the floor where none are given.
 struct Walled {
-  explicit Walled(bool obstacle) : s(scene(obstacle)), value(s.grid) {
+  explicit Walled(bool obstacle)
+      : Walled(obstacle ? std::vector<Box>{floor_of_two_rows} : std::vector<Box>{}) {}
+  explicit Walled(std::vector<Box> obstacles) : s(scene(std::move(obstacles))), value(s.grid) {
     s.each(s.grid.cells_and_ghosts(ghost_layers), [&](int i, int j, int, std::ptrdiff_t c) {
       value[c] = 10.0 * (i + 3) + (j + 3);  // no two alike
     });
   }
-  static Scene scene(bool obstacle) {
+  static Scene scene(std::vector<Box> obstacles) {
     Scene scene = box_scene(2, {6, 6, 1}, {0.6, 0.6, 1.0});
-    if (obstacle) scene.obstacles = {{{0.0, 0.0, 0.0}, {0.6, 0.2, 1.0}}};
+    scene.obstacles = std::move(obstacles);
     return scene;
   }
   std::ptrdiff_t at(int i, int j) const { return s.grid.cells.index(i, j, 0); }
@@ -40,6 +47,37 @@ TEST(InnerWalls, AScalarGoesOnAsBesideTheWall) {
   EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(2, 2), {0, -1, 0}), w.v(2, 2));
   EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(2, 2), {1, -1, 0}), w.v(3, 2));
   EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(2, 2), {1, 1, 0}), w.v(3, 3));
+}
+
+// Under a wall, and one step from seeing it.
+TEST(InnerWalls, AScalarGoesOnAsUnderTheWall) {
+  const Walled w({Box{{0.0, 0.4, 0.0}, {0.6, 0.6, 1.0}}});
+  const InnerWalls& walls = w.s.boundary.walls();
+  EXPECT_EQ(walls.cells_across(w.value.data(), w.at(2, 3), 1),
+            (std::array<double, 4>{w.v(2, 1), w.v(2, 2), w.v(2, 3), w.v(2, 3)}));
+  EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(2, 3), {0, 1, 0}), w.v(2, 3));
+  EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(2, 2), {0, 1, 0}), w.v(2, 3));
+}
+
+// Round the corner of a block one sees what is before it and what is upon it, in equal parts.
+TEST(InnerWalls, AcrossACornerIsTheMeanOfBothWays) {
+  const Walled w({Box{{0.2, 0.0, 0.0}, {0.4, 0.2, 1.0}}});
+  const InnerWalls& walls = w.s.boundary.walls();
+  EXPECT_DOUBLE_EQ(walls.cell_beside(w.value.data(), w.at(1, 2), {1, -1, 0}), 0.5 * (w.v(2, 2) + w.v(1, 1)));
+  EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(2, 3), {0, -1, 0}), w.v(2, 2));
+  EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(5, 1), {-1, 0, 0}), w.v(4, 1));
+  EXPECT_EQ(walls.cell_beside(w.value.data(), w.at(4, 1), {-1, 0, 0}), w.v(4, 1));
+}
+
+TEST(InnerWalls, EveryFaceThatLooksAtAWallIsListedAndEveryEdgeOnIt) {
+  const auto of_row = [](const auto& places, int row) {
+    return std::ranges::count_if(places, [=](const auto& at) { return at.place[1] == row; });
+  };
+  const Walled below(true), above({Box{{0.0, 0.4, 0.0}, {0.6, 0.6, 1.0}}});
+  EXPECT_EQ(of_row(below.s.boundary.walls().faces(1), 3), 6);
+  EXPECT_EQ(of_row(above.s.boundary.walls().faces(1), 3), 6);
+  EXPECT_EQ(of_row(below.s.boundary.walls().edges(0), 2), 5);  // those on the tank's sides are the sides'
+  for (const InnerWalls::Edge& edge : below.s.boundary.walls().edges(0)) EXPECT_EQ(edge.share, 2.0);
 }
 
 TEST(InnerWalls, AVelocityIsTurnedRoundOnAnObstacle) {

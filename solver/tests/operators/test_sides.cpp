@@ -1,4 +1,7 @@
 // What each kind of side answers, what its ghosts are, and what obstacles close.
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "solver/operators/aperture.hpp"
@@ -42,6 +45,7 @@ TEST(SideRule, AnOpenTopIsAtTheWeightOfTheGasOutside) {
   EXPECT_NEAR(rule.pressure({0.4, 0.3, 0.0}), 1.0 * 5.0 * 0.2, 1e-14);
   EXPECT_NEAR(rule.pressure({0.2, 0.3, 0.0}), 0.0, 1e-14);
   EXPECT_FALSE(rule.passes_grains || rule.bears_grains);
+  EXPECT_EQ(rule.liquid_share, 0.0);
 }
 
 TEST(SideRule, AnOutletHasThePressureOfItsLevel) {
@@ -56,6 +60,44 @@ TEST(SideRule, AnOutletHasThePressureOfItsLevel) {
   EXPECT_FALSE(rule.liquid_share);
   scene.sides[right].outflow.level = 0.3;
   EXPECT_EQ(outlet_rule(scene, right).liquid_share, 1.0);
+}
+
+// In the floor of an inclined tank, where the weight along it counts from its middle.
+TEST(SideRule, AnOutletInTheFloorOfAnInclinedTankHasThePressureAlongIt) {
+  Scene scene = box();
+  scene.inclination = 30.0;
+  scene.sides[bottom].kind = SideKind::outlet;
+  scene.sides[bottom].outflow = {7.0, 0.2};
+  const SideRule rule = outlet_rule(scene, bottom);
+  const double rest = 7.0 + std::sqrt(75.0) * (1.0 * 0.1 + 1000.0 * 0.2);
+  EXPECT_NEAR(rule.pressure({0.2, 0.0, 0.0}), rest, 1e-9);
+  EXPECT_NEAR(rule.pressure({0.4, 0.0, 0.0}), rest + 1000.0 * 5.0 * 0.2, 1e-9);
+  scene.sides[bottom].outflow.level = 0.0;  // gas beyond
+  EXPECT_NEAR(outlet_rule(scene, bottom).pressure({0.4, 0.0, 0.0}),
+              7.0 + std::sqrt(75.0) * 0.3 + 1.0 * 5.0 * 0.2, 1e-9);
+  EXPECT_EQ(outlet_rule(scene, bottom).liquid_share, 0.0);
+}
+
+TEST(SideRule, AnInletWithoutGrainsIsAWallToThem) {
+  const SideRule water = inlet_rule({0.5, 0.0, 1.0}), mixture = inlet_rule({0.5, 0.2, 1.0});
+  EXPECT_EQ(water.inflow(Phase::fluid), 0.5);
+  EXPECT_EQ(water.inflow(Phase::solid), 0.0);
+  EXPECT_TRUE(water.bears_grains);
+  EXPECT_EQ(water.grains.share, 1.0);  // on which they slip
+  EXPECT_EQ(mixture.inflow(Phase::solid), 0.5);
+  EXPECT_FALSE(mixture.bears_grains);
+  EXPECT_EQ(mixture.grains.share, 0.0);
+  EXPECT_EQ(mixture.fluid.share, 0.0);  // nothing moves along it
+}
+
+TEST(SideRule, BumpsAreInRadians) {
+  Side side;
+  side.solid.kind = WallKind::bumpy;
+  side.solid.bumpiness = 45.0;
+  side.solid.restitution = 0.8;
+  ASSERT_TRUE(wall_rule(side).bumps);
+  EXPECT_NEAR(wall_rule(side).bumps->angle, std::numbers::pi / 4.0, 1e-15);
+  EXPECT_EQ(wall_rule(side).bumps->restitution, 0.8);
 }
 
 // u_c and u_s come in at the speed given, with what comes in beyond; at the other end they go on.

@@ -1,6 +1,8 @@
 // What users mistake: each is named once, by key, value and usual range; what is meant is not.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -89,6 +91,7 @@ const std::vector<Mistake> mistakes{
      {"gate.position=0.1049"},
      {"gate.position"},
      "= 0.1049 m: usual is a face of the cells, the nearest 0.1 m"},
+    {"gate_before_its_face", {"gate.position=0.1051"}, {"gate.position"}, "the nearest 0.11 m"},
     {"bed_that_ends_in_a_cell", {"bed.length=0.104"}, {"gate.position"}, "= 0.104 m"},
     {"no_liquid_in_the_tank",
      {"liquid=false", "liquid.density=1000", "liquid.viscosity=1e-3"},
@@ -187,6 +190,38 @@ TEST(Plausibility, IsAMatterOfTheBedsWeight) {
                 small({"tank.size=[40, 12]", "grid.dx=0.1", "liquid.level=7", "bed.length=10",
                        "bed.height=10", "bed.solid_fraction=0.58", "gate.speed=5", "reference.cell=0.1"}))),
             std::vector<std::string>{});
+}
+
+// A gate at either end of its bed holds it.
+TEST(Plausibility, AGateStandsAtEitherEndOfTheBed) {
+  EXPECT_EQ(keys_of(plausibility(small({"bed.x=0.1", "gate.position=0.1"}))), std::vector<std::string>{});
+  EXPECT_EQ(keys_of(plausibility(small({"bed.x=0.1", "gate.position=0.2"}))), std::vector<std::string>{});
+}
+
+// Without gravity: what sends the heaviest fluid through the tank a thousand times in the run.
+TEST(Plausibility, APressureWithoutWeightIsAMatterOfTheRunsLength) {
+  const std::vector<std::string> weightless{"tank.gravity=0", "time.unit=s", "time.end=20"};
+  const auto with = [&](double pressure) {
+    std::vector<std::string> all = weightless;
+    all.push_back(fmt::format("walls.left.outflow_pressure={}", pressure));
+    return keys_of(plausibility(small(all)));
+  };
+  const Scene scene = small(weightless);
+  const double speed = 1e3 * scene.tank[0] / 20.0, largest = scene.liquid.density * speed * speed;
+  EXPECT_EQ(with(0.9 * largest), std::vector<std::string>{});
+  EXPECT_EQ(with(1.1 * largest), std::vector<std::string>{"walls.left.outflow_pressure"});
+}
+
+// A bed of a few hundred grains is one; of half a grain it is none.
+TEST(Plausibility, ABedHoldsAGrainAtLeast) {
+  const Scene scene = small();
+  const double one = std::numbers::pi / 6.0 * std::pow(scene.solid.diameter, 3) /
+                     (0.1 * 0.05 * scene.tank[2]);  // solid fraction of one grain in the bed
+  const auto of_grains = [&](double n) {
+    return keys_of(plausibility(small({fmt::format("bed.solid_fraction={}", n * one)})));
+  };
+  EXPECT_EQ(of_grains(2.0), std::vector<std::string>{});
+  EXPECT_EQ(of_grains(0.5), std::vector<std::string>{"bed.solid_fraction"});
 }
 
 TEST(Plausibility, TakesWhatIsLeftOutForMeant) {
