@@ -51,6 +51,7 @@ ABOUT = {
     "reference/demvof/coupling": "mapping, drag, impulses",
     "reference/demvof/preparation": "columns, rough floor",
     "reference/demvof/bulk_friction": "chute, mu(I)",
+    "reference/demvof/element": "element tests, a material",
     "reference/demvof/program": "demvof",
 }
 # What a part may include of the others: the libraries `scene` and `output` know nothing of the solver, and are all of it that compare
@@ -64,6 +65,7 @@ MAY_INCLUDE = {
     "solver/output": ("solver/scene", "solver/plausibility"),
     "solver": ("solver",),
     "compare": ("compare", "solver/scene", "solver/output"),
+    "reference/demvof/element": ("reference", "solver/scene", "solver/model", "solver/output", "solver/closures"),  # keys of its laws
     "reference": ("reference", "solver/scene", "solver/model", "solver/output", "solver/closures/drag"),
 }
 WIDTH, HEIGHT, GAP, ROW = 176, 44, 18, 92  # of a box, between boxes, between rows

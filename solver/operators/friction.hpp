@@ -57,7 +57,7 @@ class Friction {
   // many steps.
   bool slips_otherwise(const State& next) const;
 
-  // Of what friction dissipates at u_s of `next` (ghosts filled), the share [-] by which the viscosities of
+  // Of what friction dissipates at u_s of `next`, the share [-] by which the viscosities of
   // the last solve, those of u_strain, miss it. A bed that begins to yield is held by those of its rest: its
   // speed grows by the ratio of what drives to what holds in each solve, and the longer the step, the later
   // it flows.

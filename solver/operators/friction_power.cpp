@@ -12,7 +12,10 @@ namespace granvof {
 // By the shape of (17) alone: of the coefficient's own dependence on the rate nothing is asked.
 double Friction::yields_otherwise(const Rheology& rheology, const State& next) {
   if (is_empty(box_) || !scene_.model.contact_friction) return 0.0;
-  strain_of_contacts(rheology, next.u_s, strain_of_solve_);
+  correction_ =
+      next.u_s;  // not filled itself: what leaves through a side does so at the speed of the old level
+  boundary_.fill_velocity(correction_, Phase::solid);
+  strain_of_contacts(rheology, correction_, strain_of_solve_);
   const double n = scene_.contact.regularisation;
   const double *mu = mu_.data(), *kinetic = lambda_.data(), *was = strain_.squared.data(),
                *is = strain_of_solve_.squared.data();

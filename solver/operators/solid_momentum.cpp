@@ -20,12 +20,12 @@ linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumP
   linear::Report report = friction_.solve(balance_, inertia, aperture, rheology, now, next);
   next.u_strain = now.u_strain;
   const auto settled = [&](int pass) {
-    boundary_.fill_velocity(next.u_s, Phase::solid);
     if (friction_.yields_otherwise(rheology, next) > missed_friction) return false;
     return !friction_.has_coulomb_walls() || (pass > 1 && !friction_.slips_otherwise(next));
   };
   for (int pass = 1; pass < most_passes && !settled(pass); ++pass) {
     next.u_strain = next.u_s;
+    boundary_.fill_velocity(next.u_strain, Phase::solid);
     const int before = report.iterations;
     report = friction_.solve_again(balance_, inertia, aperture, rheology, next);
     report.iterations += before;
