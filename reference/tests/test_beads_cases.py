@@ -45,11 +45,19 @@ def test_a_case_starts_with_as_much_solid_as_its_record_and_as_densely_packed(ca
     assert bed["solid_fraction"] == pytest.approx(mean([monitors(record)["released_packing"] for record in records]), abs=1e-4)
 
 
-def test_the_glass_is_what_the_chute_measured():
-    material, chute = toml_of(ROOT / "cases/materials/glass-beads-0.8mm.toml"), monitors(recorder.RESULTS / "bulk-friction/s1/seed1")
-    stated = {"mu_s": material["solid"]["friction"], "mu_2": material["contact"]["fast_friction"],
-              "I_0": material["contact"]["inertial_number"]}
-    assert stated == {name: round(chute[name], 3) for name in stated}
+def test_the_glass_is_what_the_element_tests_measured():
+    material, measured = toml_of(ROOT / "cases/materials/glass-beads-0.8mm.toml"), monitors(recorder.RESULTS / "element/s1/seed1")
+    contact = material["contact"]
+    assert {"first_mu_s": material["solid"]["friction"], "first_mu_2": contact["fast_friction"],
+            "first_I_0": contact["inertial_number"]} == {name: round(measured[name], 3) for name in ("first_mu_s", "first_mu_2", "first_I_0")}
+    assert {"touching_loosest": contact["solid_fraction_min"], "touching_critical": contact["critical_solid_fraction"]} == {
+        name: round(measured[name], 4) for name in ("touching_loosest", "touching_critical")}
+
+
+# The chute of both: one program, one seed.
+def test_the_chute_of_the_element_tests_is_that_of_the_bulk_friction():
+    chute, measured = monitors(recorder.RESULTS / "bulk-friction/s1/seed1"), monitors(recorder.RESULTS / "element/s1/seed1")
+    assert [measured[name] for name in ("mu_s", "mu_2", "I_0")] == pytest.approx([chute[name] for name in ("mu_s", "mu_2", "I_0")], rel=1e-3)
 
 
 def test_the_polypropylene_is_what_the_element_tests_measured():
