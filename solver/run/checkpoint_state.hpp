@@ -21,7 +21,8 @@ CheckpointView checkpoint_view(const Grid& grid, const State& s, const StepContr
                                const Monitors& monitors, const RunCounters& counters,
                                const RunProgress& progress);
 
-// Throws OutputError where the checkpoint lacks something, or holds what is not known. Ghosts of the state are not filled.
+// Throws OutputError where the checkpoint lacks something, or holds what is not known. Ghosts of the state
+// are not filled.
 void restore(const Checkpoint& saved, const Grid& grid, State& s, StepControl& control, Monitors& monitors,
              RunCounters& counters);
 
