@@ -156,6 +156,11 @@ def long_line(path, chance):
     path.write_bytes(path.read_bytes() + b"9" * (1 << 20) + b"\n")
 
 
+def is_still(path, content):
+    """A sparse file is told by its size: nobody can read all of it."""
+    return path.stat().st_size == len(content) and path.read_bytes() == content
+
+
 BY_NAME = {way.__name__: way for way in (empty, missing, directory, half, last_byte, zeros, foreign, binary, unreadable_text, sparse, utf_16,
                                          fifo, endless, null, bound, to_nothing, to_itself, flipped, line_out, line_twice, digit,
                                          deep, deep_tables, deep_key, deep_header, long_line)}

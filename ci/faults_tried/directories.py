@@ -84,7 +84,7 @@ def damaged_resumes(bench, entry):
         file = out / name
         content = file.read_bytes()
         damage.BY_NAME[how](file, bench.chance)
-        if how not in damage.NO_FILES and file.read_bytes() == content:
+        if how not in damage.NO_FILES and damage.is_still(file, content):
             continue
         before = tree_of(out)
         ended = run.go(out, "--resume", patience=60.0)

@@ -57,7 +57,7 @@ def damaged_runs(bench, entry):
         damage.copy_of(whole / "run", runs / "run")
         before = (runs / "run" / name).read_bytes()
         way(runs / "run" / name, bench.chance)
-        if how not in damage.NO_FILES and (runs / "run" / name).read_bytes() == before:
+        if how not in damage.NO_FILES and damage.is_still(runs / "run" / name, before):
             continue
         ended = judged(bench, runs, table, place)
         why = ""
@@ -88,7 +88,7 @@ def damaged_records(bench, entry):
         file = damaged / name if name == "bands.json" else damaged / folder / name
         before = file.read_bytes()
         damage.BY_NAME[how](file, bench.chance)
-        if how not in damage.NO_FILES and file.read_bytes() == before:
+        if how not in damage.NO_FILES and damage.is_still(file, before):
             continue
         ended = judged(bench, whole, table, place, "--records", damaged)
         yield f"{name}, {how}", believed(ended, name)

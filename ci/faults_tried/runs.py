@@ -11,6 +11,8 @@ import h5py
 
 from faults_tried.bench import TableError, refused, told_of_our_end
 
+HUGE = 1 << 30  # bytes: a file that was grown to be, which none of a run's is
+
 
 class SmallRun:
     """An entry's case with its overrides; `whole` is the directory of a run that was let alone."""
@@ -98,9 +100,13 @@ def same_content(one, other):
 
 
 def tree_of(directory):
-    """Every name below a directory, with the bytes of the files and what else stands there."""
-    return {str(path.relative_to(directory)): path.read_bytes() if path.is_file() else stat.S_IFMT(path.lstat().st_mode)
-            for path in sorted(directory.rglob("*"))}
+    """Every name below a directory, with the bytes of the files, of huge ones their number, and what else stands there."""
+    def content(path):
+        if not path.is_file():
+            return stat.S_IFMT(path.lstat().st_mode)
+        size = path.stat().st_size
+        return path.read_bytes() if size < HUGE else size
+    return {str(path.relative_to(directory)): content(path) for path in sorted(directory.rglob("*"))}
 
 
 def not_refused(ended, before, directory):

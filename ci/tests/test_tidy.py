@@ -17,6 +17,8 @@ def tree(tmp_path):
     root = tmp_path / "tree"
     (root / "ci").mkdir(parents=True)
     shutil.copy(ROOT / "ci/tidy", root / "ci")
+    (root / "solver/python").mkdir(parents=True)
+    shutil.copy(ROOT / "solver/python/complaint.py", root / "solver/python")
     (root / "ci/build").write_text(CONFIGURE)
     (root / "ci/build").chmod(0o755)
     (root / ".clang-tidy").write_text("Checks: '-*,modernize-use-nullptr'\nWarningsAsErrors: '*'\nHeaderFilterRegex: '.*'\n")
@@ -25,7 +27,7 @@ def tree(tmp_path):
     commands = []
     for name, text in sources.items():
         path = root / name
-        path.parent.mkdir(parents=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
         for flags in ("-std=c++20", "-std=c++20 -DAGAIN"):  # of two targets; the first one counts
             commands.append({"directory": str(root / "build/tidy"), "file": str(path),

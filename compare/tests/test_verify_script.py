@@ -94,13 +94,11 @@ def test_a_failed_run_is_named_with_its_reason(verify, tmp_path, capsys):
 
 def test_figures_that_the_readme_no_longer_states_are_said(verify, tmp_path, capsys):
     kept = json.loads((SCRIPT.parent / "kept/verify/results.json").read_text())["rows"][0]
-    out = tmp_path / "out/verify"
-    out.mkdir(parents=True)
-    arguments = stand_ins(tmp_path)
+    out, judged = tmp_path / "out/verify", tmp_path / "judged.json"
+    arguments = stand_ins(tmp_path, other=f"mkdir -p '{out}'; cp '{judged}' '{out}/results.json'")
 
     def run_with(verdict):
-        results = {"date": "", "frequency": "short", "runs": [], "results": [kept | {"verdict": verdict}]}
-        (out / "results.json").write_text(json.dumps(results))
+        judged.write_text(json.dumps({"date": "", "frequency": "short", "runs": [], "results": [kept | {"verdict": verdict}]}))
         assert verify.main(arguments) == 0, "verdicts decide the exit code, the README does not"
         return capsys.readouterr().out
 
