@@ -7,8 +7,8 @@ import signal
 import subprocess
 import time
 
-from faults_tried.bench import PATIENCE, TableError, listed, refused
-from faults_tried.runs import SmallRun, crashed, not_refused, stopped_once, tree_of
+from faults_tried.bench import PATIENCE, TableError, refused
+from faults_tried.runs import SmallRun, crashed, not_refused, stopped_once, tree_of, tried_on_a_run
 
 LONG_NAME = 3000  # letters
 
@@ -235,11 +235,7 @@ TRIES = {way.__name__: way for way in (
 
 def hostile(bench, entry):
     """Odd places, names and moments: the run is as any other, or it is refused and says why."""
-    run = SmallRun(bench, entry)
-    for name, attempt in bench.some(listed(entry, "tries", TRIES), entry["sample"]):
-        place = bench.place()
-        yield name.replace("_", " "), attempt(bench, run, place)
-        bench.drop(place / "any")
+    yield from tried_on_a_run(bench, entry, TRIES)
 
 
 def own_files(bench, entry):

@@ -7,8 +7,8 @@ import subprocess
 import threading
 import time
 
-from faults_tried.bench import PATIENCE, NotTried, listed, refused, told_of_our_end
-from faults_tried.runs import SmallRun, crashed, not_refused, same_content, tree_of
+from faults_tried.bench import PATIENCE, NotTried, refused, told_of_our_end
+from faults_tried.runs import crashed, not_refused, same_content, tree_of, tried_on_a_run
 
 AT_ONCE = 6  # runs that start in the same moment
 ROUNDS = 5
@@ -199,8 +199,4 @@ TRIES = {way.__name__: way for way in (
 
 def moments(bench, entry):
     """What happens beside the start of a run, between its parts, and to the files that it reads: it is as any other, or it is refused."""
-    run = SmallRun(bench, entry)
-    for name, attempt in bench.some(listed(entry, "tries", TRIES), entry["sample"]):
-        place = bench.place()
-        yield name.replace("_", " "), attempt(bench, run, place)
-        bench.drop(place / "any")
+    yield from tried_on_a_run(bench, entry, TRIES)

@@ -9,7 +9,7 @@ import time
 
 import h5py
 
-from faults_tried.bench import TableError, refused, told_of_our_end
+from faults_tried.bench import TableError, listed, refused, told_of_our_end
 
 HUGE = 1 << 30  # bytes: a file that was grown to be, which none of a run's is
 
@@ -97,6 +97,15 @@ def same_content(one, other):
         return content_of(one) == content_of(other)
     except (OSError, KeyError):  # there is no series, or what is there is no HDF5
         return False
+
+
+def tried_on_a_run(bench, entry, known):
+    """Each of the tries that an entry lists, with the entry's run and a place of its own."""
+    run = SmallRun(bench, entry)
+    for name, attempt in bench.some(listed(entry, "tries", known), entry["sample"]):
+        place = bench.place()
+        yield name.replace("_", " "), attempt(bench, run, place)
+        bench.drop(place / "any")
 
 
 def tree_of(directory):

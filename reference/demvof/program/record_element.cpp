@@ -7,11 +7,8 @@
 #include "reference/demvof/element/first_flow.hpp"
 #include "reference/demvof/element/material.hpp"
 #include "reference/demvof/element/wall_friction.hpp"
-#include "reference/demvof/program/scratch_folder.hpp"
 #include "reference/demvof/program/test_directory.hpp"
-#include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/atomic_file.hpp"
-#include "solver/output/stop_signals.hpp"
 
 namespace demvof {
 
@@ -83,10 +80,10 @@ Monitors monitors_of(const granvof::Scene& scene, const ElementTests& tests) {
 }
 
 int record_in_this_process(const granvof::Scene& scene, const RecordOptions& options,
-                           const ScratchFolder& scratch) {
+                           const std::filesystem::path& scratch) {
   const MpiSession session;
   const TestClock clock;
-  const ElementTests tests = tests_of(scene, options, scratch.name().string());
+  const ElementTests tests = tests_of(scene, options, scratch.string());
   const std::string material = material_text(scene, tests);
   write_tests(scene, options, clock, tests.chute, monitors_of(scene, tests));
   granvof::write_file_atomically(options.out / "material.toml", material);
@@ -97,14 +94,7 @@ int record_in_this_process(const granvof::Scene& scene, const RecordOptions& opt
 }  // namespace
 
 int record_element(const granvof::Scene& scene, const RecordOptions& options) {
-  check_tests(scene);
-  require_own_tests(options.out, scene, "touching_loosest");
-  granvof::listen_to_stop_signals();  // nothing is written before the end, and nothing is then
-  const ScratchFolder scratch(options.scratch);
-  const WorkEnd done = work_in_own_process([&] { return record_in_this_process(scene, options, scratch); });
-  if (done.code) return *done.code;
-  fmt::print(stderr, "demvof: {}: {}\n", scene.name, reason_of(done, scratch.name()));
-  return 1;
+  return record_tests(scene, options, "touching_loosest", record_in_this_process);
 }
 
 }  // namespace demvof

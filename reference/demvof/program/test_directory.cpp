@@ -6,10 +6,13 @@
 #include <fmt/ranges.h>
 
 #include "reference/demvof/program/scene_setup.hpp"
+#include "reference/demvof/program/scratch_folder.hpp"
+#include "reference/demvof/program/watched_work.hpp"
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/digest.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/run_record.hpp"
+#include "solver/output/stop_signals.hpp"
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/printable.hpp"
 
@@ -72,6 +75,18 @@ void check_tests(const granvof::Scene& scene) {
         fmt::format("{}: tank.gravity is {}, allowed: > 0, beads on a slope are moved by it",
                     granvof::case_file::printable(scene.file.string(), 1000), scene.gravity));
   }
+}
+
+int record_tests(const granvof::Scene& scene, const RecordOptions& options, const std::string& sign,
+                 const Tests& tests) {
+  check_tests(scene);
+  require_own_tests(options.out, scene, sign);
+  granvof::listen_to_stop_signals();  // nothing is written before the end, and nothing is then
+  const ScratchFolder scratch(options.scratch);
+  const WorkEnd done = work_in_own_process([&] { return tests(scene, options, scratch.name()); });
+  if (done.code) return *done.code;
+  fmt::print(stderr, "demvof: {}: {}\n", scene.name, reason_of(done, scratch.name()));
+  return 1;
 }
 
 ChuteSettings chute_settings(const granvof::Scene& scene, unsigned seed, const std::string& scratch) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -18,6 +20,13 @@ void require_own_tests(const std::filesystem::path& out, const granvof::Scene& s
 
 // granvof::CaseError for beads that LIGGGHTS does not accept, and where nothing weighs.
 void check_tests(const granvof::Scene& scene);
+
+// Does `tests` in a process of their own, with a scratch folder, once the two above have passed. Returns the
+// exit code; nothing is written before the end of the tests, and nothing is where they are stopped.
+using Tests = std::function<int(const granvof::Scene& scene, const RecordOptions& options,
+                                const std::filesystem::path& scratch)>;
+int record_tests(const granvof::Scene& scene, const RecordOptions& options, const std::string& sign,
+                 const Tests& tests);
 
 // The chute of the case's beads; scratch is the folder for intermediate files.
 ChuteSettings chute_settings(const granvof::Scene& scene, unsigned seed, const std::string& scratch);
