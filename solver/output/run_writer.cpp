@@ -305,8 +305,9 @@ FilesWritten RunWriter::files() const {
 }
 
 void RunWriter::write_record(const RunProgress& progress, const RunExit& exit) {
-  require_in_place();
-  write_file_atomically(directory_ / record_name, run_record_text(scene_, record_, progress, files(), exit));
+  const std::string text = run_record_text(scene_, record_, progress, files(), exit);
+  require_in_place();  // as late as can be: what is put in its place until then is another's
+  write_file_atomically(directory_ / record_name, text);
 }
 
 }  // namespace granvof
