@@ -50,28 +50,6 @@ inline void for_each_place(const Range& r, Visit&& visit) {
 
 inline constexpr int cells_that_pay_for_threads = 8000;  // measured: below it a second thread costs more
 
-// body(std::ptrdiff_t index) for every value in the range.
-template <typename Body>
-inline void for_each(const Layout& l, const Range& r, Body&& body) {
-  const int rows_y = r.upper[1] - r.lower[1];
-  const int rows_z = r.upper[2] - r.lower[2];
-  const int length = r.upper[0] - r.lower[0];
-  const int rows = rows_y * rows_z;
-  const bool parallel = static_cast<long>(rows) * length > cells_that_pay_for_threads;
-#pragma omp parallel for schedule(static) if (parallel)
-  for (int row = 0; row < rows; ++row) {
-    const std::ptrdiff_t start = l.index(r.lower[0], r.lower[1] + row % rows_y, r.lower[2] + row / rows_y);
-    const auto of_row = body;
-#pragma omp simd
-    for (int i = 0; i < length; ++i) of_row(start + i);
-  }
-}
-
-template <typename Body>
-inline void for_each(const Layout& l, Body&& body) {
-  for_each(l, Range::all(l), body);
-}
-
 // Where a second thread pays. A separate serial branch instead of `if` in the pragma: starting a team of one
 // costs more than a coarse level.
 inline bool worth_threads(const Range& r) {
@@ -102,6 +80,25 @@ inline void for_each_row(const Range& r, Body&& body) {
 template <typename Body>
 inline void for_each_row(const Layout& l, Body&& body) {
   for_each_row(Range::all(l), body);
+}
+
+// body(std::ptrdiff_t index) for every value in the range.
+template <typename Body>
+inline void for_each(const Layout& l, const Range& r, Body&& body) {
+  const int length = r.upper[0] - r.lower[0];
+  // A function of its own for one thread and for several: two copies of a loop may be rounded in two ways.
+  const auto of_row = [&](int j, int k) __attribute__((noinline)) {
+    const std::ptrdiff_t start = l.index(r.lower[0], j, k);
+    const auto of_index = body;
+#pragma omp simd
+    for (int i = 0; i < length; ++i) of_index(start + i);
+  };
+  for_each_row(r, of_row);
+}
+
+template <typename Body>
+inline void for_each(const Layout& l, Body&& body) {
+  for_each(l, Range::all(l), body);
 }
 
 }  // namespace granvof
