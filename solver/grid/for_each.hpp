@@ -39,6 +39,36 @@ inline Range common(const Range& a, const Range& b) {
   return both;
 }
 
+inline bool is_empty(const Range& r) {
+  return r.upper[0] <= r.lower[0] || r.upper[1] <= r.lower[1] || r.upper[2] <= r.lower[2];
+}
+
+// visit(range) for every part of `all` that lies outside `inner`, which lies within it.
+template <typename Visit>
+inline void for_each_part_outside(Range all, const Range& inner, Visit&& visit) {
+  for (int d = 2; d >= 0; --d) {
+    Range below = all, above = all;
+    below.upper[d] = all.lower[d] = inner.lower[d];
+    above.lower[d] = all.upper[d] = inner.upper[d];
+    for (const Range& part : {below, above})
+      if (!is_empty(part)) visit(part);
+  }
+}
+
+// The values of a range as a box of their own in the memory of the whole; a range spans directions that are
+// cut among processes.
+inline Layout part_of(const Layout& whole, const Range& r) {
+  Layout l = whole;
+  l.origin = l.index(r.lower);
+  for (int d = 0; d < 3; ++d) {
+    if (l.is_split(d)) continue;
+    l.n[d] = r.upper[d] - r.lower[d];
+    l.periodic[d] = l.periodic[d] && l.n[d] == l.whole[d];
+    l.whole[d] = l.n[d];
+  }
+  return l;
+}
+
 // visit(std::array<int, 3> place) for every place of the range, x fastest, one after the other: for what is
 // done once, or in an order.
 template <typename Visit>

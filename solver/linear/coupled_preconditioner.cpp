@@ -44,24 +44,32 @@ class SchurComplement final : public Coefficients {
 
 void CoupledSolver::set(const CoupledSystem& s) {
   pressure_.set(Faces{s.k11}, s.m11);
-  granular_.set(SchurComplement(user_, s));
-  const int n = user_.n[0];
+  if (is_empty(part_)) return;
+  granular_->set(SchurComplement(given_[1], s));
+  const Layout& all = layout_[0];
   for (int d = 0; d < 3; ++d) {
     if (!coupled_[d]) continue;
     float* to = k21_[d].data();
-    for_each_row(layout_, [&](int j, int k) {
-      const std::ptrdiff_t here = layout_.index(0, j, k);
-      const double* from = s.k21[d] + user_.index(0, j, k);
+    Range faces = part_;
+    for (int e = 0; e < 3; ++e)
+      if (e == d && faces.upper[e] < user_.n[e]) ++faces.upper[e];
+    const int n = faces.upper[0] - faces.lower[0];
+    for_each_row(faces, [&](int j, int k) {
+      float* row = to + all.index(faces.lower[0], j, k);
+      const double* from = s.k21[d] + user_.index(faces.lower[0], j, k);
 #pragma omp simd
-      for (int i = 0; i < n; ++i) to[here + i] = static_cast<float>(from[i]);
+      for (int i = 0; i < n; ++i) row[i] = static_cast<float>(from[i]);
     });
-    exchange(layout_, to);
+    exchange(all, to);
   }
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    for_each_row(layout_, [&](int j, int k) {
-      const rows::FaceRow a = rows::face_row(s.k11, user_, j, k, zeros_.data());
-      const rows::FaceRow b = rows::face_row(s.k12, user_, j, k, zeros_.data());
-      float* theta = theta_.data() + layout_.index(0, j, k);
+    for_each_row(layout_[1], [&](int j, int k) {
+      const int n = given_[1].n[0];
+      const rows::FaceRow a =
+          rows::face_row(s.k11, user_, part_.lower[1] + j, part_.lower[2] + k, zeros_.data())
+              .from(part_.lower[0], n);
+      const rows::FaceRow b = rows::face_row(s.k12, given_[1], j, k, zeros_.data());
+      float* theta = theta_.data() + layout_[1].index(0, j, k);
       const auto store = [=](int i, double above, double below) {
         theta[i] = static_cast<float>((below > 0.0 ? above : 0.0) / (below > 0.0 ? below : 1.0));
       };
@@ -82,42 +90,56 @@ void CoupledSolver::set(const CoupledSystem& s) {
 }
 
 void CoupledSolver::precondition(const Pair& from, FloatPair& to) {
-  const int n = user_.n[0], width = padded(n);
-  const float *scale1 = pressure_.scale(), *scale2 = granular_.scale();
-  float *rhs1 = pressure_.residual(), *rhs2 = granular_.residual();
-  const double *r1 = from[0].data(), *r2 = from[1].data();
-  float *y1 = to[0].data(), *y2 = to[1].data();
-  for_each_row(layout_, [&](int j, int k) {
-    const std::ptrdiff_t row = layout_.index(0, j, k);
+  const Layout& l = layout_[0];
+  const int n = l.n[0], width = padded(n);
+  const float* scale = pressure_.scale();
+  float* rhs = pressure_.residual();
+  const double* r = from[0].data();
+  float* y = to[0].data();
+  for_each_row(l, [&](int j, int k) {
+    const std::ptrdiff_t row = l.index(0, j, k);
 #pragma omp simd
-    for (std::ptrdiff_t i = row; i < row + n; ++i) rhs1[i] = scale1[i] * static_cast<float>(r1[i]);
+    for (std::ptrdiff_t i = row; i < row + n; ++i) rhs[i] = scale[i] * static_cast<float>(r[i]);
   });
   const float* p = pressure_.cycle(pressure_smoothing);
   const FlushDenormals flush;
-  for_each_row(layout_, [&](int j, int k) {
-    const std::ptrdiff_t row = layout_.index(0, j, k);
+  for_each_row(l, [&](int j, int k) {
+    const std::ptrdiff_t row = l.index(0, j, k);
 #pragma omp simd
-    for (std::ptrdiff_t i = row; i < row + width; ++i) y1[i] = scale1[i] * p[i];
+    for (std::ptrdiff_t i = row; i < row + width; ++i) y[i] = scale[i] * p[i];
   });
-  exchange(layout_, y1);
-  const rows::Stencil k21{k21_[0].data(), k21_[1].data(), k21_[2].data(), layout_.stride[1],
-                          layout_.stride[2]};
-  const int length = layout_.any_seam(0) ? n : width;  // ghosts of the faces beyond a seam are not 0
+  if (!is_empty(part_)) precondition_second(from[1].data(), to);
+}
+
+// y2 = S (r2 - K21 y1);  y1 -= theta y2
+void CoupledSolver::precondition_second(const double* r2, FloatPair& to) {
+  const Layout &all = layout_[0], &l = layout_[1];
+  float *y1 = to[0].data(), *y2 = to[1].data();
+  exchange(all, y1);
+  const float* scale = granular_->scale();
+  float* rhs = granular_->residual();
+  const rows::Stencil k21{k21_[0].data(), k21_[1].data(), k21_[2].data(), all.stride[1], all.stride[2]};
+  // The scale of padding is 0; what is read beside it need not be, and beyond a seam is none.
+  const int n = l.n[0], width = padded(n), length = l.any_seam(0) ? n : width;
+  const auto of_all = [&](int j, int k) {
+    return all.index(part_.lower[0], part_.lower[1] + j, part_.lower[2] + k);
+  };
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    for_each_row(layout_, [&](int j, int k) {
-      const std::ptrdiff_t row = layout_.index(0, j, k);
-      rows::scaled_difference<X, Y, Z>(length, k21.at(row), r2 + row, y1 + row, scale2 + row, rhs2 + row);
+    for_each_row(l, [&](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k), first = of_all(j, k);
+      rows::scaled_difference<X, Y, Z>(length, k21.at(first), r2 + row, y1 + first, scale + row, rhs + row);
     });
   });
-  const float* g = granular_.cycle(granular_smoothing);
+  const float* g = granular_->cycle(granular_smoothing);
   const float* theta = theta_.data();
-  for_each_row(layout_, [&](int j, int k) {
-    const std::ptrdiff_t row = layout_.index(0, j, k);
+  for_each_row(l, [&](int j, int k) {
+    const std::ptrdiff_t row = l.index(0, j, k);
+    float* first = y1 + of_all(j, k);
 #pragma omp simd
-    for (std::ptrdiff_t i = row; i < row + width; ++i) {
-      const float v = scale2[i] * g[i];
-      y2[i] = v;
-      y1[i] -= theta[i] * v;
+    for (int i = 0; i < n; ++i) {
+      const float v = scale[row + i] * g[row + i];
+      y2[row + i] = v;
+      first[i] -= theta[row + i] * v;
     }
   });
 }

@@ -11,10 +11,6 @@
 namespace granvof::linear {
 namespace {
 
-Buffer<double> doubles(const Layout& l) {
-  return Buffer<double>(l.size);
-}
-
 // Largest |values|; not finite if one of them is not.
 double largest(int n, const double* values) {
   double line = 0.0, poison = 0.0;
@@ -34,20 +30,38 @@ bool CoupledSolver::Norms::finite() const {
 
 CoupledSolver::CoupledSolver(const Layout& layout, const std::array<double, 3>& spacing)
     : user_(layout),
+      spacing_(spacing),
       pressure_(layout, spacing),
-      granular_(layout, spacing),
-      layout_(pressure_.layout()),
-      zeros_(static_cast<std::size_t>(padded(layout.n[0]))),
-      theta_(layout_.size) {
-  for (auto& face : k21_) face = Buffer<float>(layout_.size);
-  for (auto* pair : {&r_, &shadow_, &p_, &v_, &t_})
-    for (auto& b : *pair) b = doubles(layout_);
-  for (auto* pair : {&y_, &w_})
-    for (auto& b : *pair) b = Buffer<float>(layout_.size);
+      given_{layout, part_of(layout, part_)},
+      layout_{pressure_.layout(), given_[1]},
+      zeros_(static_cast<std::size_t>(padded(layout.n[0]))) {
+  for (auto& face : k21_) face = Buffer<float>(layout_[0].size);
+  for (Pair* pair : {&r_, &shadow_, &p_, &v_, &t_}) (*pair)[0] = Buffer<double>(layout_[0].size);
+  for (FloatPair* pair : {&y_, &w_}) (*pair)[0] = Buffer<float>(layout_[0].size);
+}
+
+// What belongs to the second row alone is kept on its part.
+void CoupledSolver::fit(const Range& second) {
+  if (second == part_) return;
+  part_ = second;
+  given_[1] = part_of(user_, part_);
+  granular_.reset();
+  std::size_t size = 0;
+  if (!is_empty(part_)) {
+    granular_.emplace(given_[1], spacing_);
+    layout_[1] = granular_->layout();
+    size = layout_[1].size;
+  } else {
+    layout_[1] = given_[1];
+  }
+  theta_.assign(size, 0.0F);
+  for (Pair* pair : {&r_, &shadow_, &p_, &v_, &t_}) (*pair)[1].assign(size, 0.0);
+  for (FloatPair* pair : {&y_, &w_}) (*pair)[1].assign(size, 0.0F);
 }
 
 Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2, const Tolerance& tolerance) {
   for (int d = 0; d < 3; ++d) coupled_[d] = system.k11[d] != nullptr && user_.whole[d] > 1;
+  fit(system.second.value_or(Range::all(user_)));
   const Norms initial = true_residual(system, x1, x2);
   Report report;
   report.initial = report.final = initial.larger();
@@ -70,7 +84,7 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
   for (;;) {
     bool stop = false;  // converged, broken down or out of iterations: look at the true residual
     if (fresh) {
-      for (int c = 0; c < 2; ++c) std::copy_n(r_[c].data(), layout_.size, shadow_[c].data());
+      for (int c = 0; c < 2; ++c) std::copy(r_[c].begin(), r_[c].end(), shadow_[c].begin());
       rho = first_direction();
       fresh = false;
     } else {
@@ -121,51 +135,76 @@ Report CoupledSolver::solve(const CoupledSystem& system, double* x1, double* x2,
   }
 }
 
-// One row of the matrix times (v1, v2); each block row apart, as fewer streams suit the registers better.
+bool CoupledSolver::has_second(int j, int k) const {
+  return j >= part_.lower[1] && j < part_.upper[1] && k >= part_.lower[2] && k < part_.upper[2] &&
+         part_.upper[0] > part_.lower[0];
+}
+
+// One row of the matrix times (v1, v2); block by block, as fewer streams suit the registers better.
 template <bool X, bool Y, bool Z, typename T>
 void CoupledSolver::product_row(const CoupledSystem& s, const T* v1, const T* v2, int j, int k, double* out1,
                                 double* out2) {
-  const std::ptrdiff_t here = layout_.index(0, j, k), given = user_.index(0, j, k);
-  const std::ptrdiff_t sy = layout_.stride[1], sz = layout_.stride[2];
-  const T *u1 = v1 + here, *u2 = v2 + here;
-  const auto block_row = [&](const auto& first, const auto& second, const double* mass, const T* own,
-                             double* out) {
-    const rows::FaceRow a = rows::face_row(first, user_, j, k, zeros_.data());
-    const rows::FaceRow b = rows::face_row(second, user_, j, k, zeros_.data());
-    rows::face_sums<X, Y, Z>(user_.n[0], a, u1, b, u2, sy, sz,
-                             [=](int i, double sum) { out[i] = mass[i] * own[i] + sum; });
+  const auto sums = [](const Layout& l, const rows::FaceRow& faces, const T* v, auto&& store) {
+    rows::face_sums<X, Y, Z>(l.n[0], faces, v, l.stride[1], l.stride[2], store);
   };
-  block_row(s.k11, s.k12, s.m11 + given, u1, out1 + here);
-  block_row(s.k21, s.k22, s.m22 + given, u2, out2 + here);
+  const std::ptrdiff_t first = layout_[0].index(0, j, k);
+  {
+    const double* mass = s.m11 + user_.index(0, j, k);
+    const T* own = v1 + first;
+    double* out = out1 + first;
+    sums(layout_[0], rows::face_row(s.k11, user_, j, k, zeros_.data()), own,
+         [=](int i, double sum) { out[i] = mass[i] * own[i] + sum; });
+  }
+  if (!has_second(j, k)) return;
+  const int at = part_.lower[0], n = given_[1].n[0];
+  const std::array<int, 3> here{0, j - part_.lower[1], k - part_.lower[2]};
+  const std::ptrdiff_t second = layout_[1].index(here);
+  {
+    double* out = out1 + first + at;
+    sums(layout_[1], rows::face_row(s.k12, given_[1], here[1], here[2], zeros_.data()), v2 + second,
+         [=](int i, double sum) { out[i] += sum; });
+  }
+  {
+    const double* mass = s.m22 + given_[1].index(here);
+    const T* own = v2 + second;
+    double* out = out2 + second;
+    sums(layout_[1], rows::face_row(s.k22, given_[1], here[1], here[2], zeros_.data()), own,
+         [=](int i, double sum) { out[i] = mass[i] * own[i] + sum; });
+    // The first row's values go on beyond the part.
+    const rows::FaceRow faces = rows::face_row(s.k21, user_, j, k, zeros_.data()).from(at, n);
+    rows::face_sums<X, Y, Z>(n, faces, v1 + first + at, layout_[0].stride[1], layout_[0].stride[2],
+                             [=](int i, double sum) { out[i] += sum; });
+  }
 }
 
 CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const double* x1,
                                                   const double* x2) {
   const std::array<const double*, 2> x{x1, x2}, rhs{s.rhs1, s.rhs2};
-  const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
+    const Layout &l = layout_[c], &given = given_[c];
     double* to = t_[c].data();
-    for_each_row(layout_, [&](int j, int k) {
-      std::copy_n(x[c] + user_.index(0, j, k), n, to + layout_.index(0, j, k));
-    });
-    exchange(layout_, to);
+    for_each_row(
+        l, [&](int j, int k) { std::copy_n(x[c] + given.index(0, j, k), l.n[0], to + l.index(0, j, k)); });
+    if (!is_empty(Range::all(l))) exchange(l, to);
   }
   with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    for_each_row(layout_, [&](int j, int k) {
+    for_each_row(layout_[0], [&](int j, int k) {
       product_row<X, Y, Z>(s, t_[0].data(), t_[1].data(), j, k, r_[0].data(), r_[1].data());
     });
   });
   Norms norms;
   for (int c = 0; c < 2; ++c) {
-    (c == 0 ? norms.first : norms.second) = max_rows(layout_, [&](int j, int k) {
-      double* r = r_[c].data() + layout_.index(0, j, k);
-      const double* b = rhs[c] + user_.index(0, j, k);
+    const Layout &l = layout_[c], &given = given_[c];
+    (c == 0 ? norms.first : norms.second) = max_rows(l, [&](int j, int k) {
+      const int n = l.n[0];
+      double* r = r_[c].data() + l.index(0, j, k);
+      const double* b = rhs[c] + given.index(0, j, k);
 #pragma omp simd
       for (int i = 0; i < n; ++i) r[i] = b[i] - r[i];
       return largest(n, r);
     });
     // t is reused as a product later: nothing but the box may stay in it
-    if (layout_.any_seam()) std::fill_n(t_[c].data(), layout_.size, 0.0);
+    if (l.any_seam()) std::fill(t_[c].begin(), t_[c].end(), 0.0);
   }
   return norms;
 }
@@ -173,21 +212,23 @@ CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const 
 // out = A v and its products.
 CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPair& v, Pair& out,
                                                 const Pair& with) {
-  for (auto& component : v) exchange(layout_, component.data());
-  const int n = user_.n[0];
+  exchange(layout_[0], v[0].data());
+  if (!is_empty(part_)) exchange(layout_[1], v[1].data());
   const auto products = with_directions(coupled_, [&]<bool X, bool Y, bool Z>() {
-    return sum_rows(layout_, [&](int j, int k) {
+    return sum_rows(layout_[0], [&](int j, int k) {
       product_row<X, Y, Z>(s, v[0].data(), v[1].data(), j, k, out[0].data(), out[1].data());
-      const std::ptrdiff_t row = layout_.index(0, j, k);
       double a = 0.0, b = 0.0;
-      for (int c = 0; c < 2; ++c) {
+      const auto add = [&](int c, std::ptrdiff_t row) {
+        const int n = layout_[c].n[0];
         const double *o = out[c].data() + row, *w = with[c].data() + row;
 #pragma omp simd reduction(+ : a, b)
         for (int i = 0; i < n; ++i) {
           a += o[i] * w[i];
           b += o[i] * o[i];
         }
-      }
+      };
+      add(0, layout_[0].index(0, j, k));
+      if (has_second(j, k)) add(1, layout_[1].index(0, j - part_.lower[1], k - part_.lower[2]));
       return Sums<2>{{a, b}};
     });
   });
@@ -195,11 +236,11 @@ CoupledSolver::Products CoupledSolver::multiply(const CoupledSystem& s, FloatPai
 }
 
 double CoupledSolver::dot(const Pair& first, const Pair& second) const {
-  return sum_rows(std::array{layout_, layout_}, [&](std::size_t c) {
+  return sum_rows(layout_, [&](std::size_t c) {
     const double *a = first[c].data(), *b = second[c].data();
-    return [=, this](int j, int k) {
-      const std::ptrdiff_t row = layout_.index(0, j, k);
-      const int n = user_.n[0];
+    return [=, &l = layout_[c]](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k);
+      const int n = l.n[0];
       double line = 0.0;
 #pragma omp simd reduction(+ : line)
       for (int i = 0; i < n; ++i) line += a[row + i] * b[row + i];
@@ -211,10 +252,11 @@ double CoupledSolver::dot(const Pair& first, const Pair& second) const {
 // r -= factor what; the largest values of r.
 CoupledSolver::Norms CoupledSolver::subtract(double factor, const Pair& what) {
   Norms norms;
-  const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
-    (c == 0 ? norms.first : norms.second) = max_rows(layout_, [&](int j, int k) {
-      const std::ptrdiff_t row = layout_.index(0, j, k);
+    const Layout& l = layout_[c];
+    (c == 0 ? norms.first : norms.second) = max_rows(l, [&](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k);
+      const int n = l.n[0];
       double* r = r_[c].data() + row;
       const double* w = what[c].data() + row;
       double line = 0.0, poison = 0.0;
@@ -232,12 +274,13 @@ CoupledSolver::Norms CoupledSolver::subtract(double factor, const Pair& what) {
 
 // x += alpha y + omega w
 void CoupledSolver::advance(double alpha, double omega, double* x1, double* x2) {
-  const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
+    const Layout &l = layout_[c], &given = given_[c];
     double* x = c == 0 ? x1 : x2;
-    for_each_row(layout_, [&](int j, int k) {
-      const std::ptrdiff_t row = layout_.index(0, j, k);
-      double* to = x + user_.index(0, j, k);
+    for_each_row(l, [&](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k);
+      const int n = l.n[0];
+      double* to = x + given.index(0, j, k);
       const float *y = y_[c].data() + row, *w = w_[c].data() + row;
       if (omega == 0.0) {
 #pragma omp simd
@@ -252,12 +295,12 @@ void CoupledSolver::advance(double alpha, double omega, double* x1, double* x2) 
 
 // p = r, at a start; returns r . r.
 double CoupledSolver::first_direction() {
-  return sum_rows(std::array{layout_, layout_}, [&](std::size_t c) {
+  return sum_rows(layout_, [&](std::size_t c) {
     double* to = p_[c].data();
     const double* from = r_[c].data();
-    return [=, this](int j, int k) {
-      const std::ptrdiff_t row = layout_.index(0, j, k);
-      const int n = user_.n[0];
+    return [=, &l = layout_[c]](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k);
+      const int n = l.n[0];
       double* p = to + row;
       const double* r = from + row;
       double line = 0.0;
@@ -273,10 +316,11 @@ double CoupledSolver::first_direction() {
 
 // p = r + beta (p - omega v)
 void CoupledSolver::direction(double beta, double omega) {
-  const int n = user_.n[0];
   for (int c = 0; c < 2; ++c) {
-    for_each_row(layout_, [&](int j, int k) {
-      const std::ptrdiff_t row = layout_.index(0, j, k);
+    const Layout& l = layout_[c];
+    for_each_row(l, [&](int j, int k) {
+      const std::ptrdiff_t row = l.index(0, j, k);
+      const int n = l.n[0];
       double* p = p_[c].data() + row;
       const double *r = r_[c].data() + row, *v = v_[c].data() + row;
 #pragma omp simd

@@ -14,12 +14,24 @@ struct FaceRow {
   double x_end = 0.0;
   const double *y = nullptr, *y_upper = nullptr;  // faces below and above the row
   const double *z = nullptr, *z_upper = nullptr;
+  int n = 0;  // cells
+
+  // The same of `count` cells from `start` on.
+  FaceRow from(int start, int count) const {
+    FaceRow part{*this};
+    if (x != nullptr && start + count < n) part.x_end = x[start + count];
+    for (const double** faces : {&part.x, &part.y, &part.y_upper, &part.z, &part.z_upper})
+      if (*faces != nullptr) *faces += start;
+    part.n = count;
+    return part;
+  }
 };
 
 // `zeros`: at least n[0] values of 0, for the faces above the last row.
 inline FaceRow face_row(const std::array<const double*, 3>& lower, const Layout& l, int j, int k,
                         const double* zeros) {
   FaceRow row;
+  row.n = l.n[0];
   const std::ptrdiff_t start = l.index(0, j, k);
   const auto upper = [&](int d, int position) {
     if (position + 1 < l.n[d] || (l.is_split(d) && l.seam(d, true))) return lower[d] + start + l.stride[d];
@@ -65,25 +77,6 @@ template <bool X, bool Y, bool Z, typename T, typename Store>
   } else {
 #pragma omp simd
     for (int i = 0; i < n; ++i) store(i, face_sum<X, Y, Z>(a, 0.0, v, i, sy, sz));
-  }
-}
-
-// The same for the sum of two operators, a on v and b on w.
-template <bool X, bool Y, bool Z, typename T, typename Store>
-[[gnu::always_inline]] inline void face_sums(int n, const FaceRow& a, const T* v, const FaceRow& b,
-                                             const T* w, std::ptrdiff_t sy, std::ptrdiff_t sz,
-                                             Store&& store) {
-  if constexpr (X) {
-#pragma omp simd
-    for (int i = 0; i < n - 1; ++i)
-      store(i,
-            face_sum<X, Y, Z>(a, a.x[i + 1], v, i, sy, sz) + face_sum<X, Y, Z>(b, b.x[i + 1], w, i, sy, sz));
-    store(n - 1,
-          face_sum<X, Y, Z>(a, a.x_end, v, n - 1, sy, sz) + face_sum<X, Y, Z>(b, b.x_end, w, n - 1, sy, sz));
-  } else {
-#pragma omp simd
-    for (int i = 0; i < n; ++i)
-      store(i, face_sum<X, Y, Z>(a, 0.0, v, i, sy, sz) + face_sum<X, Y, Z>(b, 0.0, w, i, sy, sz));
   }
 }
 

@@ -10,18 +10,18 @@ constexpr int block = 2;
 
 }  // namespace
 
-Range box_of_grains(const Grid& grid, const FaceInertia& inertia) {
+Range box_of_grains(const Grid& grid, const FaceInertia& inertia, double least) {
   const Layout& l = grid.cells;
   const int n = l.n[0];
   // A cell of at least f_s gives its x-faces at least half of that.
-  const double least = 0.5 * least_solid_fraction;
+  const double least_of_face = 0.5 * least;
   const double* face = inertia.f_s[0].data();
   const Range grains = bounds_of_rows(l, [=](int j, int k) {
     const double* row = face + l.index(0, j, k);
     int from = 0, to = n;
-    while (from <= n && row[from] < least) ++from;
+    while (from <= n && row[from] < least_of_face) ++from;
     if (from > n) return Piece{};
-    while (row[to] < least) --to;
+    while (row[to] < least_of_face) --to;
     return Piece{from - 1, to + 1};
   });
   Range box{{0, 0, 0}, {0, 0, 0}};
@@ -34,18 +34,8 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia) {
   return box;
 }
 
-Layout cells_of(const Grid& grid, const Range& box) {
-  Layout l = grid.cells;
-  l.origin = l.index(box.lower[0], box.lower[1], box.lower[2]);
-  for (int d = 0; d < 3; ++d) {
-    if (l.is_split(d)) continue;
-    l.n[d] = l.whole[d] = box.upper[d] - box.lower[d];
-  }
-  return l;
-}
-
 Layout faces_of(const Grid& grid, const Range& box, int d) {
-  Layout l = cells_of(grid, box);
+  Layout l = part_of(grid.cells, box);
   if (!l.seam(d, true)) l.n[d] += 1;
   if (!l.periodic[d]) l.whole[d] += 1;
   return l;

@@ -79,16 +79,27 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
       f_new_(grid),
       present_(grid) {}
 
+// Solid fraction of a face below which P_s does not push its grains.
+double CoupledPressure::least_pushed() const {
+  // With the explicit law no cell's P_s answers to what fills it within the step.
+  return scene_.numerics.contact_pressure == ContactPressure::implicit ? solid_that_counts
+                                                                       : least_solid_fraction;
+}
+
+// Faces of the cells with a second row.
+Range CoupledPressure::pushed_faces(int d) const {
+  Range faces = pushed_;
+  ++faces.upper[d];
+  return common(faces, grid_.flux_faces(d));
+}
+
 // Response of both velocities to both pressure increments on every face:
 //   m_s du_s = -f_s grad dP_c - grad dP_s - beta (du_s - du_c),  m_c du_c = -f_c grad dP_c + beta (du_s -
 //   du_c),
 // m = (phase mass) / dt. Where a face holds no grains both phases move as one.
 void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const FaceField& beta,
                                    const Aperture& aperture) {
-  // With the explicit law no cell's P_s answers to what fills it within the step.
-  const double least_pushed = scene_.numerics.contact_pressure == ContactPressure::implicit
-                                  ? solid_that_counts
-                                  : least_solid_fraction;
+  const double least = least_pushed();
   for (int d = 0; d < grid_.dim; ++d) {
     const double* f = inertia.f_s[d].data();
     const double* solid = inertia.solid[d].data();
@@ -104,7 +115,7 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
       const double together = open[i] / (m_s + m_c);
       const double inv_det = open[i] / (grains ? m_s * m_c + b[i] * (m_s + m_c) : 1.0);
       s_c[i] = grains ? inv_det * ((m_c + b[i]) * f_s + b[i] * f_c) : together;
-      const bool pushed = f_s >= least_pushed;
+      const bool pushed = f_s >= least;
       s_s[i] = pushed ? inv_det * (m_c + b[i]) : 0.0;
       c_c[i] = grains ? inv_det * (b[i] * f_s + (m_s + b[i]) * f_c) : together;
       c_s[i] = pushed ? inv_det * b[i] : 0.0;
@@ -140,10 +151,11 @@ void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_direction
     const double *s_c = us_by_pc_[d].data(), *s_s = us_by_ps_[d].data();
     const double *c_c = uc_by_pc_[d].data(), *c_s = uc_by_ps_[d].data();
     double *k11 = k11_[d].data(), *k12 = k12_[d].data(), *k21 = k21_[d].data(), *k22 = k22_[d].data();
-    for_each(grid_.cells, faces, [=](std::ptrdiff_t i) {
+    for_each(grid_.cells, faces,
+             [=](std::ptrdiff_t i) { k11[i] = inv_h2 * (phi_s[i] * s_c[i] + (1.0 - phi_c[i]) * c_c[i]); });
+    for_each(grid_.cells, pushed_faces(d), [=](std::ptrdiff_t i) {
       k21[i] = inv_h2 * phi_s[i] * s_c[i];
       k22[i] = inv_h2 * phi_s[i] * s_s[i];
-      k11[i] = k21[i] + inv_h2 * (1.0 - phi_c[i]) * c_c[i];
       k12[i] = k22[i] + inv_h2 * (1.0 - phi_c[i]) * c_s[i];
     });
     for (FaceField* k : {&k11_, &k12_, &k21_, &k22_}) boundary_.exchange((*k)[d]);
@@ -158,10 +170,9 @@ void CoupledPressure::set_balances(double dt, const Field& f_s, const Field& p_s
   const double *f = f_s.data(), *p = p_s.data();
   const double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
   const double inv_dt = 1.0 / dt;
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    m1[c] = 0.0;
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { m1[c] = r1[c] = 0.0; });
+  for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) {
     m2[c] = inv_dt / slope[c];
-    r1[c] = 0.0;
     r2[c] = (f[c] - pf[c]) * inv_dt + (pp[c] - p[c]) * m2[c];
   });
   for (int d = 0; d < grid_.dim; ++d) {
@@ -173,8 +184,9 @@ void CoupledPressure::set_balances(double dt, const Field& f_s, const Field& p_s
       const double solid = (phi_s[c + s] * us[c + s] - phi_s[c] * us[c]) * inv_h;
       const double fluid = ((1.0 - phi_c[c + s]) * uc[c + s] - (1.0 - phi_c[c]) * uc[c]) * inv_h;
       r1[c] -= solid + fluid;
-      r2[c] -= solid;
     });
+    for_each(grid_.cells, pushed_,
+             [=](std::ptrdiff_t c) { r2[c] -= (phi_s[c + s] * us[c + s] - phi_s[c] * us[c]) * inv_h; });
   }
   for (int d = 0; d < grid_.dim; ++d) {
     for (const bool upper : {false, true}) {
@@ -190,7 +202,7 @@ void CoupledPressure::set_balances(double dt, const Field& f_s, const Field& p_s
   }
 }
 
-// Velocities from the increments, fluxes, and the solid fraction the fluxes lead to.
+// Velocities from the increments, fluxes, and the solid fraction that the fluxes lead to where P_s moves.
 void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_predicted,
                               const FaceField& uc_predicted, FaceField& flux_s, FaceField& flux_c) {
   boundary_.fill_pressure_increment(dp_c_);
@@ -205,9 +217,16 @@ void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_p
     const double *phi_s = f_upwind_s_[d].data(), *phi_c = f_upwind_c_[d].data();
     double *us = us_[d].data(), *uc = uc_[d].data(), *fs = flux_s[d].data(), *fc = flux_c[d].data();
     for_each(grid_.cells, grid_.flux_faces(d), [=](std::ptrdiff_t c) {
-      const double grad_c = (pc[c] - pc[c - s]) * inv_h, grad_s = (ps[c] - ps[c - s]) * inv_h;
-      us[c] = us_p[c] - s_c[c] * grad_c - s_s[c] * grad_s;
-      uc[c] = uc_p[c] - c_c[c] * grad_c - c_s[c] * grad_s;
+      const double grad_c = (pc[c] - pc[c - s]) * inv_h;
+      us[c] = us_p[c] - s_c[c] * grad_c;
+      uc[c] = uc_p[c] - c_c[c] * grad_c;
+      fs[c] = phi_s[c] * us[c];
+      fc[c] = (1.0 - phi_c[c]) * uc[c];
+    });
+    for_each(grid_.cells, pushed_faces(d), [=](std::ptrdiff_t c) {
+      const double grad_s = (ps[c] - ps[c - s]) * inv_h;
+      us[c] -= s_s[c] * grad_s;
+      uc[c] -= c_s[c] * grad_s;
       fs[c] = phi_s[c] * us[c];
       fc[c] = (1.0 - phi_c[c]) * uc[c];
     });
@@ -216,8 +235,10 @@ void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_p
     boundary_.exchange(flux_s[d]);
     boundary_.exchange(flux_c[d]);
   }
-  f_new_ = f_s;
-  subtract_divergence(grid_, dt, flux_s, f_new_);
+  const double* f = f_s.data();
+  double* f_new = f_new_.data();
+  for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) { f_new[c] = f[c]; });
+  subtract_divergence(grid_, dt, flux_s, pushed_, f_new_);
 }
 
 // Largest volume, as a fraction of a cell, by which the fluxes differ from those whose fractions are taken by
@@ -241,18 +262,20 @@ double CoupledPressure::turned_flux(double dt, const Field& f_s) {
 // First linearisation points: where the velocities of the old level would take f_s. One Newton iteration in
 // six is saved over the old f_s itself.
 void CoupledPressure::extrapolate_points(double dt, const Field& f_s, const FaceField& u_s_old) {
-  point_f_ = f_s;
+  const double* old = f_s.data();
+  double* f = point_f_.data();
+  for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) { f[c] = old[c]; });
   for (int d = 0; d < grid_.dim; ++d) {
-    const Range faces = grid_.flux_faces(d);
+    const Range faces = pushed_faces(d);
     fraction_.face_values(grid_, boundary_.walls(), f_s, u_s_old[d], d, dt, faces, f_upwind_s_[d]);
     const double *phi = f_upwind_s_[d].data(), *u = u_s_old[d].data();
+    us_[d].fill(0.0);  // also on sides that nothing passes
     double* flux = us_[d].data();
     for_each(grid_.cells, faces, [=](std::ptrdiff_t c) { flux[c] = phi[c] * u[c]; });
     boundary_.exchange(us_[d]);
   }
-  subtract_divergence(grid_, dt, us_, point_f_);
-  double* f = point_f_.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { f[c] = std::max(f[c], 0.0); });
+  subtract_divergence(grid_, dt, us_, pushed_, point_f_);
+  for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) { f[c] = std::max(f[c], 0.0); });
 }
 
 // Takes the law P_s(f_s) and its slope at the linearisation points.
@@ -262,7 +285,7 @@ void CoupledPressure::linearise(const State& now, const Rheology& rheology) {
   const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
   const double least = least_slope * load_;
   const auto pressure = law_of_cells(now, rheology, law_);
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
+  for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) {
     const auto p = pressure(c, pf[c]);
     pp[c] = p.value;
     slope[c] = implicit ? std::max(p.slope, least) : least;  // next to none: P_s stays at the point
@@ -286,7 +309,7 @@ double CoupledPressure::move_points(double dt, const State& now, const Rheology&
   const int dim = grid_.dim;
   const double tension = tension_that_matters * load_, steep = slope_that_matters * load_,
                least = least_slope * load_;
-  return max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) {
+  return max_over(grid_.cells, pushed_, 0.0, [=](std::ptrdiff_t c) {
     const auto p_at = [&](double f) { return pressure(c, f); };
     const double p_lin = p_old[c] + dp[c];
     auto there = p_at(std::max(f_new[c], 0.0));
@@ -317,7 +340,26 @@ linear::CoupledSystem CoupledPressure::system() const {
   system.m22 = m22_.data();
   system.rhs1 = rhs1_.data();
   system.rhs2 = rhs2_.data();
+  system.second = pushed_;
   return system;
+}
+
+// The new pressures. Where P_s moves nothing it is that of the law where the fluxes lead.
+void CoupledPressure::set_pressures(double dt, const State& now, const Rheology& rheology,
+                                    const FaceField& flux_s, State& next) {
+  const double *dpc = dp_c_.data(), *dps = dp_s_.data();
+  double *pc = next.p_c.data(), *ps = next.p_s.data();
+  for_each(grid_.cells, [=](std::ptrdiff_t c) { pc[c] += dpc[c]; });
+  for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) { ps[c] = std::max(ps[c] + dps[c], 0.0); });
+  const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
+  const double* old = now.f_s.data();
+  double* f = f_new_.data();
+  const auto pressure = law_of_cells(now, rheology, law_);
+  for_each_part_outside(grid_.all_cells(), pushed_, [&](const Range& cells) {
+    for_each(grid_.cells, cells, [=](std::ptrdiff_t c) { f[c] = old[c]; });
+    if (implicit) subtract_divergence(grid_, dt, flux_s, cells, f_new_);
+    for_each(grid_.cells, cells, [=](std::ptrdiff_t c) { ps[c] = pressure(c, std::max(f[c], 0.0)).value; });
+  });
 }
 
 PressureReport CoupledPressure::solve(double dt, const State& now, const Rheology& rheology,
@@ -327,6 +369,7 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
   const Numerics& numerics = scene_.numerics;
   const bool implicit = numerics.contact_pressure == ContactPressure::implicit;
   PressureReport report;
+  pushed_ = box_of_grains(grid_, inertia, least_pushed());
   if (implicit) {
     extrapolate_points(dt, now.f_s, now.u_s);
   } else {
@@ -362,12 +405,7 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
   }
   next.u_s = us_;
   next.u_c = uc_;
-  const double *dpc = dp_c_.data(), *dps = dp_s_.data();
-  double *pc = next.p_c.data(), *ps = next.p_s.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    pc[c] += dpc[c];
-    ps[c] = std::max(ps[c] + dps[c], 0.0);
-  });
+  set_pressures(dt, now, rheology, flux_s, next);
   return report;
 }
 

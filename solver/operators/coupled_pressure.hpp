@@ -3,7 +3,9 @@
 // Finds P_c and P_s so that the corrected velocities satisfy continuity (4), div(f_s u_s + f_c u_c) = 0, and
 // the solid volume balance (1) closes with the law P_s = P_s(f_s) at the new level. Drag acts inside the
 // correction: a face's 2x2 system couples both phases' response to both gradients. Elastic waves of the
-// contact pressure (13) and drag therefore do not bound the time step. With explicit contact pressure P_s is
+// contact pressure (13) and drag therefore do not bound the time step. P_s moves nothing where next to no
+// grains are (solid_that_counts): the second row is that of the box around the others, and beyond it P_s
+// follows from the law. With explicit contact pressure P_s is
 // that of the old f_s and only continuity is solved for: the comparison that shows what the coupling is
 // worth.
 #pragma once
@@ -14,6 +16,7 @@
 #include "solver/grid/boundary.hpp"
 #include "solver/linear/coupled_solver.hpp"
 #include "solver/operators/aperture.hpp"
+#include "solver/operators/box_of_grains.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/rheology.hpp"
 #include "solver/operators/solid_fraction_flux.hpp"
@@ -41,6 +44,8 @@ class CoupledPressure {
                        FaceField& flux_c);
 
  private:
+  double least_pushed() const;
+  Range pushed_faces(int d) const;
   void set_response(double dt, const FaceInertia& inertia, const FaceField& beta, const Aperture& aperture);
   void set_fluxes(double dt, const Field& f_s, bool new_directions);
   void set_balances(double dt, const Field& f_s, const Field& p_s, const FaceField& us_predicted,
@@ -51,6 +56,8 @@ class CoupledPressure {
   void linearise(const State& now, const Rheology& rheology);
   double turned_flux(double dt, const Field& f_s);
   double move_points(double dt, const State& now, const Rheology& rheology);
+  void set_pressures(double dt, const State& now, const Rheology& rheology, const FaceField& flux_s,
+                     State& next);
   linear::CoupledSystem system() const;
 
   const Grid& grid_;
@@ -60,6 +67,7 @@ class CoupledPressure {
   double load_;  // scale of P_s [Pa], see scales.hpp
   linear::CoupledSolver solver_;
   SolidFractionFlux fraction_;
+  Range pushed_{{0, 0, 0}, {0, 0, 0}};  // cells whose P_s moves grains; the second row is theirs
 
   // 2x2 response of a face: [du_s; du_c] = -response [grad dP_c; grad dP_s]
   FaceField us_by_pc_, us_by_ps_, uc_by_pc_, uc_by_ps_;
@@ -67,7 +75,7 @@ class CoupledPressure {
   FaceField f_upwind_s_, f_upwind_c_;  // fractions the fluxes carry
   FaceField us_, uc_;                  // velocities of the present iterate
   Field m11_, m22_, rhs1_, rhs2_, dp_c_, dp_s_;
-  Field point_f_, point_p_, slope_;  // linearisation point of P_s(f_s) in every cell
+  Field point_f_, point_p_, slope_;  // linearisation point of P_s(f_s) in the cells of the second row
   Field f_new_;
   Field present_;  // fraction by the present direction of flow
 };

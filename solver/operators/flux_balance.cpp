@@ -5,14 +5,19 @@
 
 namespace granvof {
 
-void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, Field& content) {
+void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, const Range& cells,
+                         Field& content) {
   double* out = content.data();
   for (int d = 0; d < grid.dim; ++d) {
     const double* q = flux[d].data();
     const std::ptrdiff_t s = grid.stride(d);
     const double dt_h = dt / grid.h[d];
-    for_each(grid.cells, [=](std::ptrdiff_t c) { out[c] -= dt_h * (q[c + s] - q[c]); });
+    for_each(grid.cells, cells, [=](std::ptrdiff_t c) { out[c] -= dt_h * (q[c + s] - q[c]); });
   }
+}
+
+void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, Field& content) {
+  subtract_divergence(grid, dt, flux, grid.all_cells(), content);
 }
 
 void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& flux, const Field& value,

@@ -7,7 +7,9 @@
 
 namespace granvof {
 
-// content -= dt div(flux). Conservative to rounding.
+// content -= dt div(flux), of all cells or those given. Conservative to rounding.
+void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, const Range& cells,
+                         Field& content);
 void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, Field& content);
 
 // content -= dt div(flux value), value taken from the cell the flux leaves; one ghost layer of value must be
