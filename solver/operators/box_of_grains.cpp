@@ -8,22 +8,11 @@ namespace {
 // Cells. Blocks of 8 let a multigrid serve more steps, and cost the friction of a flat bed 1.5 times as much.
 constexpr int block = 2;
 
-}  // namespace
-
-Range box_of_grains(const Grid& grid, const FaceInertia& inertia, double least) {
+// The box around what every row of cells has: piece(first value of the row), with one more row on each side.
+template <typename PieceOf>
+Range box_around(const Grid& grid, PieceOf&& piece) {
   const Layout& l = grid.cells;
-  const int n = l.n[0];
-  // A cell of at least f_s gives its x-faces at least half of that.
-  const double least_of_face = 0.5 * least;
-  const double* face = inertia.f_s[0].data();
-  const Range grains = bounds_of_rows(l, [=](int j, int k) {
-    const double* row = face + l.index(0, j, k);
-    int from = 0, to = n;
-    while (from <= n && row[from] < least_of_face) ++from;
-    if (from > n) return Piece{};
-    while (row[to] < least_of_face) --to;
-    return Piece{from - 1, to + 1};
-  });
+  const Range grains = bounds_of_rows(l, [=](int j, int k) { return piece(l.index(0, j, k)); });
   Range box{{0, 0, 0}, {0, 0, 0}};
   if (is_empty(grains)) return box;
   for (int d = 0; d < 3; ++d) {
@@ -32,6 +21,37 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia, double least) 
     box.upper[d] = whole ? l.n[d] : std::min((grains.upper[d] + 1 + block - 1) / block * block, l.n[d]);
   }
   return box;
+}
+
+// From the first to the last of n values that hold grains.
+template <typename Holds>
+Piece piece_of_row(int n, Holds&& holds) {
+  int from = 0, to = n - 1;
+  while (from < n && !holds(from)) ++from;
+  if (from == n) return {};
+  while (!holds(to)) --to;
+  return {from, to + 1};
+}
+
+}  // namespace
+
+Range box_of_grains(const Grid& grid, const FaceInertia& inertia, double least) {
+  const int n = grid.cells.n[0];
+  // A cell of at least f_s gives its x-faces at least half of that.
+  const double least_of_face = 0.5 * least;
+  const double* face = inertia.f_s[0].data();
+  return box_around(grid, [=](std::ptrdiff_t row) {
+    const Piece faces = piece_of_row(n + 1, [=](int i) { return !(face[row + i] < least_of_face); });
+    return faces.end > faces.begin ? Piece{faces.begin - 1, faces.end} : faces;
+  });
+}
+
+Range box_of_grains(const Grid& grid, const Field& now, const Field& then, double least) {
+  const int n = grid.cells.n[0];
+  const double *f0 = now.data(), *f1 = then.data();
+  return box_around(grid, [=](std::ptrdiff_t row) {
+    return piece_of_row(n, [=](int i) { return !(f0[row + i] < least && f1[row + i] < least); });
+  });
 }
 
 Layout faces_of(const Grid& grid, const Range& box, int d) {

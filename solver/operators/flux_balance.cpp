@@ -21,20 +21,25 @@ void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, Fie
 }
 
 void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& flux, const Field& value,
-                                Field& content) {
+                                const Range& cells, Field& content) {
   const double* v = value.data();
   double* out = content.data();
   for (int d = 0; d < grid.dim; ++d) {
     const double* q = flux[d].data();
     const std::ptrdiff_t s = grid.stride(d);
     const double dt_h = dt / grid.h[d];
-    for_each(grid.cells, [=](std::ptrdiff_t c) {
+    for_each(grid.cells, cells, [=](std::ptrdiff_t c) {
       const double own = v[c], upper = v[c + s], lower = v[c - s], out_flux = q[c + s], in_flux = q[c];
       const double ahead = out_flux * (out_flux > 0.0 ? own : upper);
       const double behind = in_flux * (in_flux > 0.0 ? lower : own);
       out[c] -= dt_h * (ahead - behind);
     });
   }
+}
+
+void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& flux, const Field& value,
+                                Field& content) {
+  subtract_upwind_divergence(grid, dt, flux, value, grid.all_cells(), content);
 }
 
 void outflow_rate(const Grid& grid, const FaceField& flux, Field& rate) {

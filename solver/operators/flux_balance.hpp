@@ -15,6 +15,8 @@ void subtract_divergence(const Grid& grid, double dt, const FaceField& flux, Fie
 // content -= dt div(flux value), value taken from the cell the flux leaves; one ghost layer of value must be
 // filled.
 void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& flux, const Field& value,
+                                const Range& cells, Field& content);
+void subtract_upwind_divergence(const Grid& grid, double dt, const FaceField& flux, const Field& value,
                                 Field& content);
 
 // rate = volume that leaves a cell through its faces per volume and time [1/s].

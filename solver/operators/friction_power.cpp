@@ -43,7 +43,7 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
   Power power;
   const double *kinetic = lambda_.data(), *div = divergence_.data();
   double* spent = kinetic_power.data();
-  double total = sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+  double total = sum_over(grid_.cells, box_, [=](std::ptrdiff_t c) {
     spent[c] = kinetic[c] * div[c] * div[c];
     return spent[c];
   });
@@ -52,14 +52,16 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
     const double inv_h = 1.0 / grid_.h[d];
     const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(),
                  *end = next.u_s[d].data(), *mu = normal_viscosity(d);
+    Range faces = box_;
+    ++faces.upper[d];
     const auto work_on = [&](const double* velocity) {
-      return sum_over(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
+      return sum_over(grid_.cells, common(faces, grid_.inner_faces(d)), [=](std::ptrdiff_t c) {
         return m[c] != 0.0 ? velocity[c] * (own[c] * x[c] - y[c]) : 0.0;
       });
     };
     power.on_grains += work_on(end);
     power.solved_for += work_on(x);
-    total += sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+    total += sum_over(grid_.cells, box_, [=](std::ptrdiff_t c) {
       const double stretch = (x[c + s] - x[c]) * inv_h;
       spent[c] += 2.0 * kinetic[c] * stretch * stretch;
       return 2.0 * mu[c] * stretch * stretch;
@@ -91,8 +93,7 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
   }
   power.on_grains *= grid_.cell_volume;
   power.solved_for *= grid_.cell_volume;
-  power.kinetic = grid_.cell_volume *
-                  sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return spent[c]; });
+  power.kinetic = grid_.cell_volume * sum_over(grid_.cells, box_, [=](std::ptrdiff_t c) { return spent[c]; });
   power.friction = std::max(total * grid_.cell_volume - power.kinetic, 0.0);
   grid_.for_each_open_side([&](int d, bool upper) {
     const std::ptrdiff_t s = grid_.stride(d), inside = upper ? -s : 0;

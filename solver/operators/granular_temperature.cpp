@@ -6,6 +6,7 @@
 
 #include "solver/closures/bumpy_wall.hpp"
 #include "solver/closures/kinetic_theory.hpp"
+#include "solver/operators/box_of_grains.hpp"
 #include "solver/operators/flux_balance.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/scene/gravity.hpp"
@@ -64,24 +65,18 @@ GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, c
       boundary_(boundary),
       laws_(scene),
       wall_loss_(loss_to_bumps(grid, boundary)),
-      solver_(grid.cells, grid.h),
       conductivity_(grid),
       kappa_(grid),
       mass_(grid),
-      rhs_(grid),
-      collisions_(grid),
-      drag_(grid),
-      pressure_(grid),
-      excess_(grid),
-      spared_(grid) {}
+      rhs_(grid) {}
 
 // (f_s Theta) carried by the solid flux, upwind: a convex combination of old values, so Theta stays positive.
 double GranularTemperature::convect(double dt, const State& now, const FaceField& flux_s, State& next) const {
   const double *f = now.f_s.data(), *f_new = next.f_s.data(), *t = now.theta.data();
   double* out = next.theta.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
-  subtract_upwind_divergence(grid_, dt, flux_s, now.theta, next.theta);
-  const double held = sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+  for_each(grid_.cells, cells_, [=](std::ptrdiff_t c) { out[c] = f[c] * t[c]; });
+  subtract_upwind_divergence(grid_, dt, flux_s, now.theta, cells_, next.theta);
+  const double held = sum_over(grid_.cells, cells_, [=](std::ptrdiff_t c) {
     const bool grains = f_new[c] >= least_solid_fraction;
     const double of_cell = out[c];
     out[c] = grains ? std::max(of_cell / f_new[c], 0.0) : 0.0;
@@ -96,7 +91,7 @@ void GranularTemperature::conduct(double dt, const Rheology& rheology, State& ne
   const double *f = next.f_s.data(), *mu = rheology.kinetic_viscosity.data(),
                *e = rheology.restitution.data();
   double *kappa = kappa_.data(), *mass = mass_.data(), *rhs = rhs_.data(), *t = next.theta.data();
-  for_each(grid_.cells, [=, laws = laws_](std::ptrdiff_t c) {
+  for_each(grid_.cells, cells_, [=, laws = laws_](std::ptrdiff_t c) {
     const bool grains = f[c] >= least_solid_fraction;
     kappa[c] = grains ? laws.conductivity_to_viscosity(f[c], e[c]) * mu[c] : 0.0;
     mass[c] = grains ? 1.5 * f[c] * rho_s / dt : 0.0;
@@ -109,7 +104,9 @@ void GranularTemperature::conduct(double dt, const Rheology& rheology, State& ne
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h2 = 1.0 / (grid_.h[d] * grid_.h[d]);
     double* k = conductivity_[d].data();
-    for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
+    Range part = cells_;
+    ++part.upper[d];
+    for_each(grid_.cells, common(part, grid_.inner_faces(d)), [=](std::ptrdiff_t c) {
       // no conduction into cells without grains
       k[c] = mass[c] > 0.0 && mass[c - s] > 0.0 ? 0.5 * (kappa[c] + kappa[c - s]) * inv_h2 : 0.0;
     });
@@ -117,11 +114,11 @@ void GranularTemperature::conduct(double dt, const Rheology& rheology, State& ne
     boundary_.exchange(conductivity_[d]);
     faces.lower[d] = k;
   }
-  const double scale =
-      max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return rhs[c]; });
+  const double scale = max_over(grid_.cells, cells_, 0.0, [=](std::ptrdiff_t c) { return rhs[c]; });
   if (scale == 0.0) return;
-  solver_.solve(faces, mass, rhs, t, {1e-8 * scale, 1e-6, 50});
-  for_each(grid_.cells, [=](std::ptrdiff_t c) { t[c] = std::max(t[c], 0.0); });
+  if (!solver_) solver_.emplace(part_of(grid_.cells, cells_), grid_.h);
+  solver_->solve(faces, mass, rhs, t, {1e-8 * scale, 1e-6, 50});
+  for_each(grid_.cells, cells_, [=](std::ptrdiff_t c) { t[c] = std::max(t[c], 0.0); });
 }
 
 namespace {
@@ -206,39 +203,38 @@ GranularLosses GranularTemperature::balance(double dt, const State& now, const F
   const LocalBalances at(scene_, laws_, wall_loss_, next.f_s, beta, restitution, strain);
   const double *f0 = now.f_s.data(), *f = next.f_s.data(), *produced = production.data(),
                *old = now.theta.data();
-  double *t = next.theta.data(), *collided = collisions_.data(), *dragged = drag_.data(),
-         *pressed = pressure_.data(), *excess = excess_.data(), *spared = spared_.data();
-  for_each(grid_.cells, [=](std::ptrdiff_t c) {
-    collided[c] = dragged[c] = pressed[c] = spared[c] = 0.0;
-    if (f[c] < least_collisional_fraction) {
-      excess[c] = 1.5 * (steady ? f0[c] : f[c]) * rho_s * t[c] + dt * produced[c];
-      t[c] = 0.0;
-      return;
+  double* t = next.theta.data();
+  const Sums<5> sums = sum_rows(grid_.cells, cells_, [=](std::ptrdiff_t start, int n) {
+    double collided = 0.0, dragged = 0.0, pressed = 0.0, excess = 0.0, spared = 0.0;
+    for (std::ptrdiff_t c = start; c < start + n; ++c) {
+      if (f[c] < least_collisional_fraction) {
+        excess += 1.5 * (steady ? f0[c] : f[c]) * rho_s * t[c] + dt * produced[c];
+        t[c] = 0.0;
+        continue;
+      }
+      const LocalBalance b = at(c);
+      // Implicit where it is a loss; a gain taken so has a pole near div u_s dt = -3.
+      const double loss = std::max(b.expansion, 0.0), gain = std::max(-b.expansion, 0.0) * t[c];
+      double inertia = 0.0, held = produced[c], decay = 3.0 * b.drag + loss;
+      if (steady) {
+        decay += std::max(b.work, 0.0);
+      } else {
+        inertia = 1.5 * f[c] * rho_s / dt;
+        held += inertia * t[c] + gain - b.work * old[c];
+      }
+      const double w = closures::cubic_root(b.collisions, inertia + decay, std::max(held, 0.0));
+      pressed += dt * (steady ? std::max(b.work, 0.0) * w * w : b.work * old[c]);
+      spared += steady ? 1.5 * rho_s * (f[c] * w * w - f0[c] * old[c]) : dt * std::max(-held, 0.0);
+      t[c] = std::min(w * w, bound);
+      excess += 1.5 * f[c] * rho_s * (w * w - t[c]);
+      collided += dt * ((b.collisions * w + loss) * w * w - (steady ? 0.0 : gain));
+      dragged += dt * 3.0 * b.drag * w * w;
     }
-    const LocalBalance b = at(c);
-    // Implicit where it is a loss; a gain taken so has a pole near div u_s dt = -3.
-    const double loss = std::max(b.expansion, 0.0), gain = std::max(-b.expansion, 0.0) * t[c];
-    double inertia = 0.0, held = produced[c], decay = 3.0 * b.drag + loss;
-    if (steady) {
-      decay += std::max(b.work, 0.0);
-    } else {
-      inertia = 1.5 * f[c] * rho_s / dt;
-      held += inertia * t[c] + gain - b.work * old[c];
-    }
-    const double w = closures::cubic_root(b.collisions, inertia + decay, std::max(held, 0.0));
-    pressed[c] = dt * (steady ? std::max(b.work, 0.0) * w * w : b.work * old[c]);
-    spared[c] = steady ? 1.5 * rho_s * (f[c] * w * w - f0[c] * old[c]) : dt * std::max(-held, 0.0);
-    t[c] = std::min(w * w, bound);
-    excess[c] = 1.5 * f[c] * rho_s * (w * w - t[c]);
-    collided[c] = dt * ((b.collisions * w + loss) * w * w - (steady ? 0.0 : gain));
-    dragged[c] = dt * 3.0 * b.drag * w * w;
+    return Sums<5>{{collided, dragged, pressed, excess, spared}};
   });
-  const auto total = [&](const Field& loss) {
-    const double* l = loss.data();
-    return grid_.cell_volume *
-           sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) { return l[c]; });
-  };
-  return {total(collisions_), total(drag_), total(pressure_), total(excess_), 0.0, total(spared_)};
+  const auto [collided, dragged, pressed, excess, spared] = sums.values;
+  const double volume = grid_.cell_volume;
+  return {volume * collided, volume * dragged, volume * pressed, volume * excess, 0.0, volume * spared};
 }
 
 GranularLosses GranularTemperature::advance(double dt, const State& now, const FaceField& flux_s,
@@ -246,6 +242,13 @@ GranularLosses GranularTemperature::advance(double dt, const State& now, const F
                                             const StrainRate& strain, const Field& production, State& next) {
   const TemperatureModel model = scene_.model.granular_temperature;
   if (!closures::agitates(model)) return {};  // Theta stays zero
+  const Range cells = box_of_grains(grid_, now.f_s, next.f_s);
+  if (cells != cells_) solver_.reset();
+  cells_ = cells;
+  double* t = next.theta.data();
+  for_each_part_outside(grid_.all_cells(), cells_, [&](const Range& outside) {
+    for_each(grid_.cells, outside, [=](std::ptrdiff_t c) { t[c] = 0.0; });
+  });
   double run_out = 0.0;
   if (closures::is_transported(model)) {
     run_out = convect(dt, now, flux_s, next);

@@ -8,6 +8,8 @@
 // diameters.)
 #pragma once
 
+#include <optional>
+
 #include "solver/closures/collisions.hpp"
 #include "solver/grid/boundary.hpp"
 #include "solver/linear/scalar_solver.hpp"
@@ -45,7 +47,7 @@ class GranularTemperature {
                          State& next);
 
  private:
-  // Returns what was held where no grains are left [J].
+  // All on `cells_`. Returns what was held where no grains are left [J].
   double convect(double dt, const State& now, const FaceField& flux_s, State& next) const;
   void conduct(double dt, const Rheology& rheology, State& next);
   GranularLosses balance(double dt, const State& now, const Field& beta, const Field& restitution,
@@ -56,10 +58,10 @@ class GranularTemperature {
   const Boundary& boundary_;
   closures::Collisions laws_;
   Field wall_loss_;  // bumpy_wall_loss() per height of the cells beside bumps [1/m]; empty without
-  linear::ScalarSolver solver_;
+  Range cells_{{0, 0, 0}, {0, 0, 0}};           // around those that hold grains before or after the step
+  std::optional<linear::ScalarSolver> solver_;  // of cells_
   FaceField conductivity_;
   Field kappa_, mass_, rhs_;
-  Field collisions_, drag_, pressure_, excess_, spared_;  // of the step, as in GranularLosses [J/m3]
 };
 
 }  // namespace granvof
