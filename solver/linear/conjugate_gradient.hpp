@@ -61,7 +61,13 @@ class ConjugateGradient {
     }
   }
 
-  // Solves A x = rhs for a symmetric positive (semi-)definite A; x holds the guess.
+  // Other boxes in the same memory.
+  void fit(const std::vector<Layout>& layouts) {
+    layouts_ = layouts;
+    for (std::size_t c = 0; c < layouts_.size(); ++c) std::fill_n(p_[c], layouts_[c].size, 0.0);
+  }
+
+  // Solves A x = rhs for a symmetric positive (semi-)definite A, from x = 0.
   //   apply(const Components& p, const Components& q): q = A p on the boxes. Ghosts of p are 0 unless apply
   //   fills
   //     them (it may write them: that is where exchange belongs). p and q never alias.
@@ -74,7 +80,7 @@ class ConjugateGradient {
   Report solve(Apply&& apply, Precondition&& precondition, const ConstComponents& rhs, const Components& x,
                const Tolerance& tolerance, const ConstComponents& weight = {}) {
     Report report;
-    report.initial = report.final = true_residual(apply, rhs, x, weight);
+    report.initial = report.final = residual_at_zero(rhs, x, weight);
     if (!std::isfinite(report.initial)) return report;
     const double target = std::max(tolerance.absolute, tolerance.relative * report.initial);
     double restart_norm = report.initial;  // the true residual at the last (re)start
@@ -110,6 +116,18 @@ class ConjugateGradient {
 
  private:
   static ConstComponents as_const(const Components& c) { return {c[0], c[1], c[2]}; }
+
+  // x = 0 and r = rhs; its largest value, weighted.
+  double residual_at_zero(const ConstComponents& rhs, const Components& x, const ConstComponents& weight) {
+    return max_rows(layouts_, [&](std::size_t c) {
+      const double* b = rhs[c];
+      double *r = r_[c], *to = x[c];
+      return largest_of_row(layouts_[c], weight[c], [=](std::ptrdiff_t i) {
+        to[i] = 0.0;
+        return r[i] = b[i];
+      });
+    });
+  }
 
   // r = rhs - A x; its largest value, weighted. Uses p and q as scratch.
   template <typename Apply>

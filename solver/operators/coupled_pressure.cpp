@@ -403,8 +403,8 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
     report.converged = solved && !turned;
     if (report.converged) break;
   }
-  next.u_s = us_;
-  next.u_c = uc_;
+  std::swap(next.u_s, us_);
+  std::swap(next.u_c, uc_);
   set_pressures(dt, now, rheology, flux_s, next);
   return report;
 }

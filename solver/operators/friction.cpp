@@ -67,7 +67,11 @@ void Friction::fit_box(const FaceInertia& inertia) {
     if (is_empty(box_)) continue;
     layouts.push_back(faces_[d]);
   }
-  if (!layouts.empty()) solver_.emplace(layouts);
+  if (layouts.empty()) return;
+  if (solver_)
+    solver_->fit(layouts);
+  else
+    solver_.emplace(layouts);
 }
 
 void Friction::mark_faces(const FaceInertia& inertia, const Aperture& aperture) {
@@ -124,11 +128,8 @@ linear::Report Friction::solve_by(const SolidBalance& balance, const FaceInertia
          load = 0.0;  // largest residual of the guess, largest right-hand side, over the mass [m/s]
   for (int d = 0; d < grid_.dim; ++d) {
     const double *b = balance.rhs[d].data(), *m = marked_[d].data();
-    double *res = residual_[d].data(), *x = correction_[d].data();
-    for_each(faces_[d], [=](std::ptrdiff_t c) {
-      res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0;
-      x[c] = 0.0;
-    });
+    double* res = residual_[d].data();
+    for_each(faces_[d], [=](std::ptrdiff_t c) { res[c] = m[c] != 0.0 ? b[c] - res[c] : 0.0; });
     const double *own = mass[d].data(), *w = weight_[d].data();
     const Layout& layout = faces_[d];
     first = max_over(layout, Range::all(layout), first,

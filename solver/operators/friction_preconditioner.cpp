@@ -37,8 +37,16 @@ void Friction::set_own_diffusion(const FaceField& mass) {
       const double inv_h2 = 1.0 / (grid_.h[e] * grid_.h[e]);
       const double* edge = e == d ? nullptr : mu_edge_[plane_index(d, e)].data();
       const double* tilt = e == d || d != vertical ? nullptr : tilting(std::min(d, e), std::max(d, e));
-      const auto viscosity = [=](std::ptrdiff_t c) { return tilt ? tilt[c] * edge[c] : edge[c]; };
       double* a = coefficient_[d][e].data();
+      const auto couple_across = [&](auto viscosity) {
+        for_each(layout, [=](std::ptrdiff_t c) {
+          a[c] = viscosity(c) * inv_h2 * m[c] * m[c - s];
+          diagonal[c] +=
+              m[c] * inv_h2 * (viscosity(c) * (1.0 - m[c - s]) + viscosity(c + s) * (1.0 - m[c + s]));
+        });
+      };
+      const auto tilted = [=](std::ptrdiff_t c) { return tilt[c] * edge[c]; };
+      const auto whole = [=](std::ptrdiff_t c) { return edge[c]; };
       if (e == d) {
         for_each(layout, [=](std::ptrdiff_t c) {
           const double behind = (2.0 * mu[c - s] + lambda[c - s]) * inv_h2,
@@ -47,11 +55,10 @@ void Friction::set_own_diffusion(const FaceField& mass) {
           diagonal[c] += m[c] * (behind * (1.0 - m[c - s]) + ahead * (1.0 - m[c + s]));
         });
       } else {
-        for_each(layout, [=](std::ptrdiff_t c) {
-          a[c] = viscosity(c) * inv_h2 * m[c] * m[c - s];
-          diagonal[c] +=
-              m[c] * inv_h2 * (viscosity(c) * (1.0 - m[c - s]) + viscosity(c + s) * (1.0 - m[c + s]));
-        });
+        if (tilt != nullptr)
+          couple_across(tilted);
+        else
+          couple_across(whole);
         // a wall is half a cell away: its edge counts twice (once above, through the unmarked ghost)
         for (const bool upper : {false, true}) {
           if (grid_.cells.seam(e, upper)) continue;
@@ -60,7 +67,9 @@ void Friction::set_own_diffusion(const FaceField& mass) {
           wall.lower[e] = upper ? layout.n[e] - 1 : 0;
           wall.upper[e] = wall.lower[e] + 1;
           const std::ptrdiff_t at = upper ? s : 0;
-          for_each(layout, wall, [=](std::ptrdiff_t c) { diagonal[c] += m[c] * inv_h2 * viscosity(c + at); });
+          for_each(layout, wall, [=](std::ptrdiff_t c) {
+            diagonal[c] += m[c] * inv_h2 * (tilt != nullptr ? tilted(c + at) : whole(c + at));
+          });
         }
       }
       boundary_.exchange(coefficient_[d][e]);

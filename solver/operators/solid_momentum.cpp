@@ -18,7 +18,6 @@ linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumP
                                     const Rheology& rheology, const Aperture& aperture, State& next) {
   set_balance(dt, now, predicted, inertia, drag, aperture, next);
   linear::Report report = friction_.solve(balance_, inertia, aperture, rheology, now, next);
-  next.u_strain = now.u_strain;
   const auto settled = [&](int pass) {
     if (friction_.yields_otherwise(rheology, next) > missed_friction) return false;
     return !friction_.has_coulomb_walls() || (pass > 1 && !friction_.slips_otherwise(next));
