@@ -164,17 +164,16 @@ void CoupledSolver::product_row(const CoupledSystem& s, const T* v1, const T* v2
     sums(layout_[1], rows::face_row(s.k12, given_[1], here[1], here[2], zeros_.data()), v2 + second,
          [=](int i, double sum) { out[i] += sum; });
   }
-  {
-    const double* mass = s.m22 + given_[1].index(here);
-    const T* own = v2 + second;
-    double* out = out2 + second;
-    sums(layout_[1], rows::face_row(s.k22, given_[1], here[1], here[2], zeros_.data()), own,
-         [=](int i, double sum) { out[i] = mass[i] * own[i] + sum; });
-    // The first row's values go on beyond the part.
-    const rows::FaceRow faces = rows::face_row(s.k21, user_, j, k, zeros_.data()).from(at, n);
-    rows::face_sums<X, Y, Z>(n, faces, v1 + first + at, layout_[0].stride[1], layout_[0].stride[2],
-                             [=](int i, double sum) { out[i] += sum; });
-  }
+  const double* mass = s.m22 + given_[1].index(here);
+  const T* own = v2 + second;
+  double* out = out2 + second;
+  // The first row's values go on beyond the part.
+  const rows::FaceRow faces = rows::face_row(s.k21, user_, j, k, zeros_.data()).from(at, n);
+  rows::face_sums<X, Y, Z>(n, faces, v1 + first + at, layout_[0].stride[1], layout_[0].stride[2],
+                           [=](int i, double sum) { out[i] = sum; });
+  // The mass last: where P_s answers to nothing it outweighs all else, and what is added to it is lost.
+  sums(layout_[1], rows::face_row(s.k22, given_[1], here[1], here[2], zeros_.data()), own,
+       [=](int i, double sum) { out[i] = mass[i] * own[i] + (out[i] + sum); });
 }
 
 CoupledSolver::Norms CoupledSolver::true_residual(const CoupledSystem& s, const double* x1,

@@ -122,6 +122,40 @@ TEST(ConjugateGradient, WeightsJudgeEveryRowByItsOwn) {
   }
 }
 
+// A solver that is fitted to another part of its memory leaves nothing of the last solve around it.
+TEST(ConjugateGradient, IsFittedToAnotherBox) {
+  Box b({20, 12, 1});
+  const auto laplacian = [&](const Layout& part) {
+    return [&b, part](const Components& p, const Components& q) {
+      for_each(part, [=, &b](std::ptrdiff_t c) {
+        const std::ptrdiff_t t = b.layout.stride[1];
+        q[0][c] = 4.1 * p[0][c] - p[0][c - 1] - p[0][c + 1] - p[0][c - t] - p[0][c + t];
+      });
+    };
+  };
+  const auto precondition = [&](const Layout& part) {
+    return [part](const ConstComponents& r, const Components& z) {
+      for_each(part, [=](std::ptrdiff_t c) { z[0][c] = r[0][c]; });
+    };
+  };
+  const Layout wide = part_of(b.layout, {{1, 1, 0}, {19, 11, 1}}),
+               narrow = part_of(b.layout, {{6, 4, 0}, {12, 9, 1}});
+  Values rhs = b.values(1.0);
+  const auto solve = [&](ConjugateGradient& solver, const Layout& part) {
+    Values x = b.values(7.0);  // is no guess
+    EXPECT_TRUE(solver.solve(laplacian(part), precondition(part), {rhs.data()}, {x.data()}, {0.0, 1e-12, 200})
+                    .converged);
+    std::vector<double> answer;
+    for_each_place(Range::all(part),
+                   [&](const std::array<int, 3>& at) { answer.push_back(x[part.index(at)]); });
+    return answer;
+  };
+  ConjugateGradient moved({wide}), fresh({narrow});
+  solve(moved, wide);
+  moved.fit({narrow});
+  EXPECT_EQ(solve(moved, narrow), solve(fresh, narrow));
+}
+
 TEST(ConjugateGradient, IndefiniteOperatorIsReported) {
   Box b({8, 8, 1});
   Values rhs = b.values(1.0), x = b.values();

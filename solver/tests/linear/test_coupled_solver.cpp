@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <Eigen/SparseLU>
 #include <gtest/gtest.h>
@@ -146,6 +147,54 @@ TEST(CoupledSolver, ApplicationsBarelyGrowWithTheGrid) {
   }
   EXPECT_LE(counts.back(), 3 * counts.front()) << counts[0] << " " << counts[1] << " " << counts[2];
   EXPECT_LE(counts.back(), 40) << counts[0] << " " << counts[1] << " " << counts[2];
+}
+
+// The second row of a part of the box: there the answer of the whole, beyond it nothing is read or written;
+// with one solver for parts that move, grow and end.
+TEST(CoupledSolver, SecondRowOfAPart) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const std::array<int, 3> n : {std::array{40, 30, 1}, {37, 23, 1}, {13, 12, 9}}) {
+    Box b({n[0], n[1], n[2]});
+    BlockSystem s = mixture(b, {.gas_from = 0.7});
+    CoupledSolver of_all(b.layout), of_part(b.layout);
+    EXPECT_TRUE(of_all.solve(s.system(), s.x1.data(), s.x2.data(), {0.0, 1e-10, 200}).converged);
+    const Range bed{{0, 0, 0}, {(2 * n[0] + 4) / 5, (3 * n[1] + 4) / 5, n[2]}};
+    for (const int margin : {1, 4, 2}) {
+      BlockSystem part = s;
+      part.x1 = part.x2 = b.values();
+      const Range second{bed.lower, {bed.upper[0] + margin, bed.upper[1] + margin, n[2]}};
+      b.each([&](int i, int j, int k) {
+        if (second.contains({i, j, k})) return;
+        const auto c = b.layout.index(i, j, k);
+        part.x2[c] = part.m22[c] = part.rhs2[c] = nothing;
+      });
+      CoupledSystem system = part.system();
+      system.second = second;
+      EXPECT_TRUE(of_part.solve(system, part.x1.data(), part.x2.data(), {0.0, 1e-10, 200}).converged);
+      const double scale1 = b.gather(s.x1).lpNorm<Eigen::Infinity>(),
+                   scale2 = b.gather(s.x2).lpNorm<Eigen::Infinity>();
+      b.each([&](int i, int j, int k) {
+        const auto c = b.layout.index(i, j, k);
+        EXPECT_NEAR(part.x1[c], s.x1[c], 1e-6 * scale1);
+        if (second.contains({i, j, k}))
+          EXPECT_NEAR(part.x2[c], s.x2[c], 1e-6 * scale2);
+        else
+          EXPECT_TRUE(std::isnan(part.x2[c]));
+      });
+    }
+    // Without any: the first row by itself.
+    BlockSystem first = s;
+    first.x1 = b.values();
+    first.x2 = first.m22 = first.rhs2 = b.values(nothing);
+    CoupledSystem system = first.system();
+    system.second = Range{{0, 0, 0}, {0, 0, 0}};
+    EXPECT_TRUE(of_part.solve(system, first.x1.data(), first.x2.data(), {0.0, 1e-10, 200}).converged);
+    const auto a = s.matrix(b);
+    const Eigen::Index cells = a.rows() / 2;
+    const Vector x = b.gather(first.x1), rhs = b.gather(first.rhs1);
+    const testing::Matrix of_first = a.topLeftCorner(cells, cells);
+    EXPECT_LE((rhs - of_first * x).lpNorm<Eigen::Infinity>(), 1e-9 * rhs.lpNorm<Eigen::Infinity>());
+  }
 }
 
 TEST(CoupledSolver, ZeroRightHandSide) {

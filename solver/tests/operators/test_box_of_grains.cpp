@@ -57,6 +57,36 @@ TEST(BoxOfGrains, HoldsEveryFaceWithGrainsAndARowAround) {
   }
 }
 
+// Of two levels: what held grains, and what holds them now, each with a cell around.
+TEST(BoxOfGrains, HoldsTheGrainsOfTwoLevels) {
+  const Tank s(unit_scene(2, 40));
+  const auto only = [&](int i, int j) {
+    Field f(s.grid);
+    f[s.grid.cells.index(i, j, 0)] = 2.0 * least_solid_fraction;
+    return f;
+  };
+  EXPECT_EQ(box_of_grains(s.grid, only(10, 20), only(15, 33)), (Range{{8, 18, 0}, {18, 36, 1}}));
+  EXPECT_EQ(box_of_grains(s.grid, only(15, 33), only(10, 20)), (Range{{8, 18, 0}, {18, 36, 1}}));
+  EXPECT_EQ(box_of_grains(s.grid, only(0, 0), only(39, 39)), (Range{{0, 0, 0}, {40, 40, 1}}));
+  EXPECT_TRUE(is_empty(box_of_grains(s.grid, Field(s.grid), Field(s.grid))));
+}
+
+// Every value of a range lies within the part or in one piece outside it.
+TEST(BoxOfGrains, PiecesOutsideAPartFillTheRest) {
+  const Tank s(unit_scene(3, 8));
+  for (const Range& inner :
+       {Range{{2, 3, 1}, {5, 8, 7}}, Range{{0, 0, 0}, {8, 8, 8}}, Range{}, Range{{0, 0, 0}, {0, 0, 0}}}) {
+    Field seen(s.grid);
+    const auto count = [&](const Range& part) {
+      for_each_place(part, [&](const std::array<int, 3>& at) { seen[s.grid.cells.index(at)] += 1.0; });
+    };
+    count(inner);
+    for_each_part_outside(s.grid.all_cells(), inner, count);
+    for_each_place(s.grid.all_cells(),
+                   [&](const std::array<int, 3>& at) { EXPECT_EQ(seen[s.grid.cells.index(at)], 1.0); });
+  }
+}
+
 TEST(BoxOfGrains, WholeLengthOfAPeriodicDirection) {
   Scene scene = unit_scene(2, 40);
   make_periodic(scene, 0);
@@ -68,7 +98,7 @@ TEST(BoxOfGrains, WholeLengthOfAPeriodicDirection) {
 TEST(BoxOfGrains, LayoutsShareTheMemoryOfTheGrid) {
   const Tank s(unit_scene(3, 40));
   const Range box{{8, 16, 0}, {24, 40, 16}};
-  const Layout cells = cells_of(s.grid, box), faces = faces_of(s.grid, box, 1);
+  const Layout cells = part_of(s.grid.cells, box), faces = faces_of(s.grid, box, 1);
   EXPECT_EQ(cells.n, (std::array{16, 24, 16}));
   EXPECT_EQ(faces.n, (std::array{16, 25, 16}));
   EXPECT_EQ(cells.index(3, 2, 1), s.grid.cells.index(11, 18, 1));
