@@ -14,12 +14,19 @@ LONG = 900.0  # seconds
 
 
 def result_of(place, name, members=None):
-    """The bytes of a result, or these members of each of its steps: costs are not the same twice. None where it is not there.
-    Places in it are not the same twice either."""
+    """The bytes of a result; with `members` the second of each step by the first: costs, and what is tried by them, are not the same
+    twice. None where it is not there. Places in it are not the same twice either."""
     path = place / name
     if members and path.exists():
-        return [[step[member] for member in members] for step in json.loads(path.read_bytes())["steps"]]
+        return {step[members[0]]: step[members[1]] for step in json.loads(path.read_bytes())["steps"]}
     return path.read_bytes().replace(str(place).encode(), b"") if path.exists() else None
+
+
+def is_same(one, other):
+    """Two results: to the byte, or in all steps that both have, which must be some."""
+    if not isinstance(one, dict) or not isinstance(other, dict):
+        return one == other
+    return one.keys() & other.keys() != set() and all(one[step] == other[step] for step in one.keys() & other.keys())
 
 
 def finished_in(place):
@@ -77,7 +84,7 @@ def begun_again(bench, entry):
         again = [path for path, at in made.items() if not path.exists() or os.stat(path).st_mtime_ns != at]
         if not why and again:
             why = f"{len(again)} of {len(made)} finished runs were made again"
-        if not why and result_of(place, entry["result"], members) != result:
+        if not why and not is_same(result_of(place, entry["result"], members), result):
             why = f"other results in {entry['result']}"
         yield f"{name} to {' '.join(entry['command'][:2])}, try {number + 1}", why
         bench.drop(place / "any")

@@ -3,7 +3,7 @@
 import shutil
 
 from faults_tried import damage
-from faults_tried.again import LONG, result_of
+from faults_tried.again import LONG, is_same, result_of
 from faults_tried.bench import TableError, refused
 
 
@@ -42,7 +42,7 @@ def damaged_caches(bench, entry):
         WAYS[how](run / name, bench.chance)
         ended = bench.call(bench.filled(entry["command"], work=place), patience=LONG)
         if ended is not None and ended.returncode == 0:
-            why = "" if result_of(place, entry["result"], members) == answer else "another answer"
+            why = "" if is_same(result_of(place, entry["result"], members), answer) else "another answer"
         else:
             why = refused(ended)
         yield f"{' '.join(entry['command'][:2])}, {name} of a run it has kept, {how}", why
