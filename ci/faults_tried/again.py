@@ -1,5 +1,6 @@
 """Programs that take long and start others, ended in their midst and started again: the same results, and none of before."""
 
+import json
 import os
 import shutil
 import signal
@@ -12,10 +13,32 @@ from faults_tried.orphans import END, as_from_a_terminal, processes_of, wait_unt
 LONG = 900.0  # seconds
 
 
-def result_of(place, name):
-    """The bytes of a result; None where it is not there. Places in them are not the same twice."""
+def result_of(place, name, members=None):
+    """The bytes of a result; with `members` the second of each step by the first: costs, and what is tried by them, are not the same
+    twice. None where it is not there. Places in it are not the same twice either."""
     path = place / name
+    if members and path.exists():
+        return {step[members[0]]: step[members[1]] for step in json.loads(path.read_bytes())["steps"]}
     return path.read_bytes().replace(str(place).encode(), b"") if path.exists() else None
+
+
+def is_same(one, other):
+    """Two results: to the byte, or in all steps that both have, which must be some."""
+    if not isinstance(one, dict) or not isinstance(other, dict):
+        return one == other
+    return one.keys() & other.keys() != set() and all(one[step] == other[step] for step in one.keys() & other.keys())
+
+
+def finished_in(place):
+    """When each run below a place that has finished was written."""
+    finished = {}
+    for path in place.rglob("run.json"):
+        try:
+            if json.loads(path.read_bytes())["exit"]["state"] == "finished" and (path.parent / "made.json").exists():
+                finished[path] = os.stat(path).st_mtime_ns
+        except (ValueError, KeyError, OSError):
+            pass  # it had just begun
+    return finished
 
 
 def ended_after(command, place, root, seconds, number):
@@ -38,7 +61,8 @@ def begun_again(bench, entry):
     begun = time.monotonic()
     whole = bench.call(bench.filled(entry["command"], work=first), patience=LONG)
     length = time.monotonic() - begun
-    result = result_of(first, entry["result"])
+    members = entry.get("members")
+    result = result_of(first, entry["result"], members)
     if whole is None or whole.returncode != 0 or result is None:
         raise TableError(f"{' '.join(entry['command'])}: exit code {whole and whole.returncode}: {whole and (whole.stdout + whole.stderr)[-200:]!r}")
     for number in bench.some(range(entry["times"]), entry["sample"]):
@@ -53,10 +77,14 @@ def begun_again(bench, entry):
         if not why and over_old and path.exists() and os.stat(path).st_mtime_ns < started and entry.get("replaces", True):
             begun_it = any(part.stat().st_mtime_ns > started for part in (place / "out/runs").rglob("*"))
             why = "the results of before stand there" if begun_it else ""
+        made = finished_in(place) if entry.get("keeps") else {}
         ended = bench.call([*command, *(entry.get("again", []) if number % 4 > 1 else [])], patience=LONG)
         if not why and (ended is None or ended.returncode != 0):
             why = f"started again: exit code {ended and ended.returncode}: {ended and (ended.stdout + ended.stderr)[-200:]!r}"
-        if not why and result_of(place, entry["result"]) != result:
+        again = [path for path, at in made.items() if not path.exists() or os.stat(path).st_mtime_ns != at]
+        if not why and again:
+            why = f"{len(again)} of {len(made)} finished runs were made again"
+        if not why and not is_same(result_of(place, entry["result"], members), result):
             why = f"other results in {entry['result']}"
         yield f"{name} to {' '.join(entry['command'][:2])}, try {number + 1}", why
         bench.drop(place / "any")

@@ -40,6 +40,21 @@ std::optional<RunFacts> facts_in(const fs::path& directory) {
   }
 }
 
+// Whether a finished run is of this case and its files are what its record states: one that was changed since
+// would be refused wherever it is read, and is made anew instead.
+bool is_whole(const fs::path& directory, const RunFacts& facts, const std::string& resolved_case) {
+  if (!facts.files) return true;  // of a program that states nothing of its files
+  if (!facts.sealed || facts.resolved_case != resolved_case) return false;
+  try {
+    require_digest(directory / "series.csv", facts.files->series.sha256);
+    if (facts.files->fields && facts.files->fields->sha256)
+      require_digest(directory / "fields.h5", *facts.files->fields->sha256);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string short_hash(std::string_view text) {
@@ -107,7 +122,7 @@ bool is_made(const fs::path& directory, const std::string& program, const std::s
   if (note->kind == ending::cpu_limit) return as_long(note->limits.cpu_seconds, limits.cpu_seconds);
   if (note->kind != ending::finished) return is_for_good(note->kind);
   const auto facts = facts_in(directory);
-  return facts && facts->kind == ending::finished;
+  return facts && facts->kind == ending::finished && is_whole(directory, *facts, resolved_case);
 }
 
 bool can_be_gone_on_with(const fs::path& directory, const std::string& program,

@@ -183,11 +183,11 @@ std::optional<CellFields> Run::solid_fraction_at(double time) const {
 LoadedRun load_run(const std::filesystem::path& directory, std::string_view id, const Scene& scene) {
   LoadedRun loaded;
   loaded.directory = directory;
-  if (!is_there(directory / "run.json")) {
-    loaded.reason = fmt::format("no run in {}", directory.string());
-    return loaded;
-  }
   try {
+    if (!is_there(directory / "run.json")) {
+      loaded.reason = fmt::format("no run in {}", directory.string());
+      return loaded;
+    }
     loaded.state = RunState::refused;
     loaded.facts = read_facts(directory / "run.json");
     if (loaded.facts->exit != "finished") {

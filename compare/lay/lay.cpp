@@ -117,6 +117,10 @@ Run read_their_series(const std::filesystem::path& file, const Scene& scene) {
     if (column.unit != unit)
       throw std::invalid_argument(fmt::format("{}: the column '{}' is in '{}', expected '{}'", file.string(),
                                               column.name, column.unit, unit));
+    for (std::size_t before = 0; before < c; ++before)
+      if (run.series.columns[before].name == column.name)
+        throw std::invalid_argument(
+            fmt::format("{}: the column '{}' is given twice", file.string(), column.name));
     if (column.name != "time" && !scaled) continue;
     ++times;
     if (!scaled) continue;
@@ -141,14 +145,42 @@ Run read_their_series(const std::filesystem::path& file, const Scene& scene) {
   return run;
 }
 
+namespace {
+
+constexpr double overshoot = 0.05;  // of a share of volume beyond 0 and 1: what other codes' fluxes may leave
+
+// Of values without a meaning every scalar would be a number all the same.
+void require_shares(const std::vector<double>& values, const char* name, const std::string& where) {
+  const auto bad = std::find_if(values.begin(), values.end(),
+                                [](double v) { return v < -overshoot || v > 1.0 + overshoot; });
+  if (bad != values.end())
+    throw std::invalid_argument(
+        fmt::format("{}: {} is {:.6g} in a cell, allowed: 0 to 1", where, name, *bad));
+}
+
+void require_times(const std::vector<double>& times, const std::filesystem::path& file) {
+  if (times.empty()) throw std::invalid_argument(fmt::format("{}: it holds no instant", file.string()));
+  for (std::size_t index = 0; index < times.size(); ++index)
+    if (!(times[index] >= 0.0 && (index == 0 || times[index] > times[index - 1])))
+      throw std::invalid_argument(
+          fmt::format("{}: instant {} is of t = {} s, allowed: 0 or more, each later than the one before",
+                      file.string(), index + 1, times[index]));
+}
+
+}  // namespace
+
 Run read_their_fields(const std::filesystem::path& file, const Scene& scene) {
   Run run{file.stem().string(), file.parent_path(), scene, {}, {}};
   run.series.columns.push_back({"time", "s", ""});
   for (const ScalarEntry& entry : scalar_table())
     run.series.columns.push_back({std::string(entry.name), std::string(entry.unit), ""});
-  const std::size_t instants = read_field_times(file).size();
-  for (std::size_t index = 0; index < instants; ++index) {
+  const std::vector<double> times = read_field_times(file);
+  require_times(times, file);
+  for (std::size_t index = 0; index < times.size(); ++index) {
     CellFields fields = read_fields(file, index);
+    const std::string where = fmt::format("{} at t = {} s", file.string(), fields.time);
+    require_shares(fields.f_s, "f_s", where);
+    require_shares(fields.alpha, "alpha", where);
     for (std::size_t d = 0; d < static_cast<std::size_t>(scene.dimensions); ++d) {
       const double length = fields.cells[d] * fields.spacing[d];
       if (std::abs(length - scene.tank[d]) > 1e-6 * scene.tank[d])

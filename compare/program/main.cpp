@@ -80,6 +80,7 @@ int check_runs(const Options& options) {
     evaluation.results.push_back(canary_result(options.canary, options.left()));
   std::filesystem::create_directories(options.out);
   const auto results = options.out / "results.json";
+  require_own_file(results, "{\n \"date\"");
   // Kept for the report, which shows what changed since the last comparison.
   if (std::filesystem::exists(results))
     write_file_atomically(options.out / "results.previous.json", read_file(results));
@@ -116,8 +117,9 @@ int lay_beside(const LayOptions& options, const Paths& paths) {
   const std::string name = options.name.empty() ? theirs.id : options.name;
   const auto curves = lay(*ours.run, theirs);
   std::filesystem::create_directories(options.out);
+  require_own_file(options.out / "lay.json", "{\n \"scene\"");
   write_file_atomically(options.out / "lay.json", lay_json(curves, *ours.run, name));
-  fmt::print("{}", lay_table(curves, name));
+  fmt::print("{}", lay_table(curves, case_file::printable(name, longest_message)));
   return 0;
 }
 

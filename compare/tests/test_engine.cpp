@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/engine/engine.hpp"
+#include "compare/tests/files_stated.hpp"
 #include "compare/tests/stand_in.hpp"
+#include "solver/output/seal.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/cases_directory.hpp"
 #include "solver/tests/temporary_directory.hpp"
@@ -154,6 +156,34 @@ TEST_F(RunEngine, WhatTheSameProgramMadeIsKept) {
   fs::remove(root_ / "kept/run.json");
   EXPECT_FALSE(engine(leaves("finished"), 1, "granvof 1.1 (abd)").make(other).kept);  // it is gone
   EXPECT_EQ(calls_beside(program_).size(), 4U);
+}
+
+// Whoever reads it would refuse it: made anew, it is what it was.
+TEST_F(RunEngine, AFinishedRunThatWasChangedSinceIsMadeAgain) {
+  Order wanted = order("kept");
+  wanted.keep = true;
+  const std::string series = "time [s]\n0\n2\n";
+  const auto record = [&](const std::string& resolved) {
+    return nlohmann::json{{"exit", {{"state", "finished"}, {"kind", "finished"}}},
+                          {"files", granvof::test::files_stated(series)},
+                          {"resolved_case", resolved}}
+        .dump(2);
+  };
+  const std::string text = record(load_scene(wanted.case_file, wanted.set).resolved);
+  std::ofstream(root_ / "record") << sealed(text);
+  std::ofstream(root_ / "series") << series;
+  Engine made = engine("mkdir -p \"$out\"; cp " + (root_ / "record").string() + " \"$out/run.json\"; cp " +
+                       (root_ / "series").string() + " \"$out/series.csv\"");
+  EXPECT_FALSE(made.make(wanted).kept);
+  EXPECT_TRUE(made.make(wanted).kept);
+  std::ofstream(wanted.directory / "series.csv") << "time [s]\n0\n1\n";
+  EXPECT_FALSE(made.make(wanted).kept);
+  EXPECT_TRUE(made.make(wanted).kept);
+  std::ofstream(wanted.directory / "run.json") << sealed(record("of another case"));
+  EXPECT_FALSE(made.make(wanted).kept);
+  std::ofstream(wanted.directory / "run.json") << text;  // without what it says of itself
+  EXPECT_FALSE(made.make(wanted).kept);
+  EXPECT_TRUE(made.make(wanted).kept);
 }
 
 TEST_F(RunEngine, AFailureThatWouldComeAgainIsKeptAndOneThatMightNotIsMadeAgain) {

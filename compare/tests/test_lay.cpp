@@ -77,6 +77,8 @@ TEST_F(Lay, BadInputIsNamed) {
   EXPECT_NE(refusal("time [s],front_dense [m]\n0,1\n0,2\n").find("does not ascend from row 1 to row 2"),
             std::string::npos);
   EXPECT_NE(refusal("time [s],front_dense [m]\n1,1\n0,2\n").find("does not ascend"), std::string::npos);
+  EXPECT_NE(refusal("time [s],front_dense [m],front_dense [m]\n0,1,2\n").find("'front_dense' is given twice"),
+            std::string::npos);
   EXPECT_NE(refusal("time [ms],front_dense [m]\n0,1\n").find("expected 's'"), std::string::npos);
 }
 
@@ -89,6 +91,43 @@ TEST_F(Lay, WhatIsTooLargeToCompareIsRefused) {
     const compare::Run run = theirs(text);
     EXPECT_THROW(lay(run, run), std::invalid_argument) << text;
   }
+}
+
+// What has no meaning, though every scalar of it would be a number.
+TEST_F(Lay, FieldsWithoutAMeaningAreRefused) {
+  const auto refusal_of = [&](const std::vector<double>& times, double f_s, double alpha) -> std::string {
+    Scene coarse = scene_;
+    coarse.grid.cells = {4, 2, 1};
+    coarse.grid.spacing = {scene_.tank[0] / 4, scene_.tank[1] / 2, scene_.tank[2]};
+    FieldsFile file = FieldsFile::create(directory_.path(), coarse);
+    for (const double time : times) {
+      CellFields fields;
+      fields.time = time;
+      fields.cells = coarse.grid.cells;
+      fields.spacing = coarse.grid.spacing;
+      for (auto* values : {&fields.f_s, &fields.alpha, &fields.p_c, &fields.p_s, &fields.theta, &fields.phi,
+                           &fields.u_s[0], &fields.u_s[1], &fields.u_c[0], &fields.u_c[1]})
+        values->assign(8, 0.25);
+      fields.f_s[5] = f_s;
+      fields.alpha[5] = alpha;
+      file.append(fields);
+    }
+    file.bring_up_to_date();
+    try {
+      read_their_fields(directory_.path() / "fields.h5", scene_);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal_of({0.0, 1.0}, 0.5, 0.5), "accepted");
+  EXPECT_EQ(refusal_of({0.0}, -0.04, 1.04), "accepted");  // an overshoot of their fluxes
+  EXPECT_NE(refusal_of({}, 0.5, 0.5).find("it holds no instant"), std::string::npos);
+  EXPECT_NE(refusal_of({0.0, 0.0}, 0.5, 0.5).find("instant 2 is of t = 0 s"), std::string::npos);
+  EXPECT_NE(refusal_of({2.0, 1.0}, 0.5, 0.5).find("instant 2 is of t = 1 s"), std::string::npos);
+  EXPECT_NE(refusal_of({-1.0}, 0.5, 0.5).find("instant 1 is of t = -1 s"), std::string::npos);
+  EXPECT_NE(refusal_of({0.0}, 2.0, 0.5).find("f_s is 2 in a cell, allowed: 0 to 1"), std::string::npos);
+  EXPECT_NE(refusal_of({0.0}, 0.5, -0.1).find("alpha is -0.1 in a cell, allowed: 0 to 1"), std::string::npos);
 }
 
 // Fields of a box that is a hundredth longer than the tank are those of another scene; of the tank's own they

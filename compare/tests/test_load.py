@@ -1,5 +1,6 @@
 """`import granvof`: a run directory as tables and fields with coordinates, with and without pandas and xarray."""
 
+import hashlib
 import importlib.util
 import json
 import re
@@ -75,3 +76,22 @@ def test_fields_are_described_as_in_the_docs(granvof):
         row = next((line for line in page.splitlines() if line.startswith("|") and re.search(rf"`{name}`", line)
                     and line.rstrip().endswith(f"| {unit} |")), None)
         assert row, f"{name} [{unit}]"
+
+
+def test_a_file_that_was_exchanged_after_the_end_is_refused(granvof, directory):
+    """Of a run that goes on it may be newer than its record."""
+    digests = {name: hashlib.sha256((directory / name).read_bytes()).hexdigest() for name in ("series.csv", "fields.h5")}
+    facts = {"exit": {"state": "finished"}, "files": {name: {"sha256": digest} for name, digest in digests.items()}}
+    (directory / "run.json").write_text(json.dumps(facts))
+    granvof.load(directory)
+    with h5py.File(directory / "fields.h5", "r+") as file:
+        file["t0001/f_s"][...] = 0.5
+    with pytest.raises(granvof.NotARun, match="fields.h5: it is not the file that was written"):
+        granvof.load(directory)
+    granvof.load(directory, fields=False)
+    (directory / "series.csv").write_text("time [s],front_dense [m],y_c [m]\n0,0.1,0.02\n0.5,0.3,\n")
+    with pytest.raises(granvof.NotARun, match="series.csv: it is not the file that was written"):
+        granvof.load(directory, fields=False)
+    facts["exit"]["state"] = "running"
+    (directory / "run.json").write_text(json.dumps(facts))
+    granvof.load(directory)

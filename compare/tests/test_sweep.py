@@ -94,3 +94,11 @@ def test_bad_input_is_one_line(sweep, arguments, word):
     ended = sweep(*arguments)
     said = [line for line in ended.stderr.splitlines() if not line.endswith("...")]
     assert ended.returncode == 2 and len(said) == 1 and word in said[0], ended.stderr
+
+
+def test_a_table_of_the_users_stays(sweep):
+    sweep.out.mkdir(parents=True)
+    (sweep.out / "sweep.csv").write_text("mine\n")
+    ended = sweep("--set", "solid.friction=0.1")
+    assert ended.returncode == 2 and "something else" in ended.stderr, ended.stderr
+    assert (sweep.out / "sweep.csv").read_text() == "mine\n" and len(list(sweep.out.iterdir())) == 1

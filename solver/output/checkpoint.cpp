@@ -17,7 +17,7 @@ namespace granvof {
 
 namespace {
 
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 // The last line of the file, behind the HDF5 data, which HDF5 ignores: a checksum of all bytes before it
 // (64-bit FNV-1a). It is compared before HDF5 sees the file, since HDF5 1.10 neither notices all damage nor
@@ -54,6 +54,7 @@ std::string checkpoint_content(const Scene& scene, const CheckpointView& state) 
   hdf5::write_attribute(file, "time", state.time);
   hdf5::write_attribute(file, "rows", state.rows.count);
   hdf5::write_attribute(file, "rows_sha256", state.rows.sha256);
+  hdf5::write_attribute(file, "instants_sha256", state.instants_sha256);
   const auto scalars = hdf5::create_group(file, "scalars");
   for (const auto& [name, value] : state.scalars) hdf5::write_attribute(scalars, name, value);
   const auto counters = hdf5::create_group(file, "counters");
@@ -129,6 +130,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Scene& scene
       throw OutputError("resume from", path, fmt::format("its time is {} s", state.time));
     state.rows = {hdf5::read_integer_attribute(file, "rows"),
                   hdf5::read_string_attribute(file, "rows_sha256")};
+    state.instants_sha256 = hdf5::read_string_attribute(file, "instants_sha256");
     const auto scalars = hdf5::open_group(file, "scalars");
     for (const auto& name : hdf5::attribute_names(scalars)) {
       state.scalars[name] = hdf5::read_double_attribute(scalars, name);

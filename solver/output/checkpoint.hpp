@@ -26,6 +26,7 @@ struct CheckpointView {
   std::map<std::string, double> scalars;
   std::map<std::string, std::int64_t> counters;
   RowsSoFar rows;
+  std::string instants_sha256;  // of the fields written so far; empty where nothing is known
 };
 
 // The same, read back.
@@ -35,6 +36,7 @@ struct Checkpoint {
   std::map<std::string, double> scalars;
   std::map<std::string, std::int64_t> counters;
   RowsSoFar rows;
+  std::string instants_sha256;
 
   // Lookups that throw OutputError naming the file and what is missing or has another size.
   const std::vector<double>& array(const std::string& name, std::size_t size) const;

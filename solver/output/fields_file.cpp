@@ -86,6 +86,23 @@ std::vector<double> times_of(hid_t file, const fs::path& path) {
   return times;
 }
 
+void add_values(Digest& digest, const std::vector<double>& values, std::size_t count) {
+  std::vector<float> single(count, 0.0F);  // a component that is missing, in 2D, is 0
+  for (std::size_t c = 0; c < values.size(); ++c) single[c] = static_cast<float>(values[c]);
+  digest.add({reinterpret_cast<const char*>(single.data()), single.size() * sizeof(float)});
+}
+
+// The values of an instant, as precise as they are written.
+void add_instant(Digest& digest, const CellFields& fields) {
+  const std::size_t cells = fields.f_s.size();
+  digest.add(fmt::format("{} {} {}\n", fields.time, cells, fields.p_s.empty()));
+  for (const auto* values : {&fields.f_s, &fields.alpha, &fields.p_c, &fields.theta, &fields.phi})
+    add_values(digest, *values, cells);
+  if (!fields.p_s.empty()) add_values(digest, fields.p_s, cells);
+  for (const auto* vector : {&fields.u_s, &fields.u_c})
+    for (const auto& component : *vector) add_values(digest, component, cells);
+}
+
 // Copies one instant to `target`. Its attributes are written anew: those that refer to axes refer to places
 // in the file.
 void copy_group(const hdf5::Handle& group, hid_t target, const std::string& name) {
@@ -144,8 +161,10 @@ FieldsFile FieldsFile::create(const fs::path& directory, const Scene& scene) {
   return file;
 }
 
-void FieldsFile::check_instants(const fs::path& directory, std::span<const double> times) {
+void FieldsFile::check_instants(const fs::path& directory, std::span<const double> times,
+                                const std::string& sha256) {
   const auto path = directory / file_name;
+  Digest digest;
   const hdf5::QuietErrors quiet;
   const auto file = hdf5::open_for_reading(path);
   with_path("read", path, [&] {
@@ -153,7 +172,7 @@ void FieldsFile::check_instants(const fs::path& directory, std::span<const doubl
     for (std::size_t index = 0; index < times.size(); ++index) {
       if (index < there.size() && there[index] == times[index]) {
         // A damaged instant would be carried into the joined file.
-        (void)read_instant(file, open_instant(file, path, index).group);
+        add_instant(digest, read_instant(file, open_instant(file, path, index).group));
         continue;
       }
       throw OutputError(
@@ -162,6 +181,9 @@ void FieldsFile::check_instants(const fs::path& directory, std::span<const doubl
                       index + 1, times[index],
                       index < there.size() ? fmt::format("is of {} s", there[index]) : "is not there"));
     }
+    if (!sha256.empty() && digest.hex() != sha256)
+      throw OutputError("resume", path,
+                        "its instants are not what the run has written: one was changed since");
   });
 }
 
@@ -177,10 +199,11 @@ FieldsFile FieldsFile::resume(const fs::path& directory, const Scene& scene, std
       for (std::size_t index = 0; index < times.size(); ++index) {
         const auto instant = open_instant(file, path, index);
         const auto target = result.piece(index);
-        if (!fs::exists(target)) {  // fields.h5 has been joined: the instant anew, as it was to the byte
-          write_file_atomically(target, result.piece_content(read_instant(file, instant.group)));
-        }
-        result.instants_.push_back({times[index], hdf5::exists(instant.group, "p_s")});
+        const CellFields fields = read_instant(file, instant.group);
+        if (!fs::exists(target))  // fields.h5 has been joined: the instant anew, as it was to the byte
+          write_file_atomically(target, result.piece_content(fields));
+        add_instant(result.digest_, fields);
+        result.instants_.push_back({times[index], !fields.p_s.empty(), result.digest_.hex()});
       }
     });
   }
@@ -223,14 +246,23 @@ void FieldsFile::append(const CellFields& fields) {
     return piece_content(fields);
   });
   write_file_atomically(path, content);
-  instants_.push_back({fields.time, !fields.p_s.empty()});
-  if (instants_.size() - listed_ <= instants_.size() / instants_per_unlisted) return;
-  try {
-    write_lists();
-  } catch (...) {
-    instants_.pop_back();
-    throw;
+  instants_.push_back({fields.time, !fields.p_s.empty(), {}});
+  if (instants_.size() - listed_ > instants_.size() / instants_per_unlisted) {
+    try {
+      write_lists();
+    } catch (...) {
+      instants_.pop_back();
+      throw;
+    }
   }
+  add_instant(digest_, fields);
+  instants_.back().sha256 = digest_.hex();
+}
+
+std::string FieldsFile::sha256(double until) const {
+  const auto later = std::find_if(instants_.begin(), instants_.end(),
+                                  [=](const Instant& instant) { return instant.time > until; });
+  return later == instants_.begin() ? Digest().hex() : std::prev(later)->sha256;
 }
 
 void FieldsFile::bring_up_to_date() {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "solver/output/cell_fields.hpp"
+#include "solver/output/digest.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
@@ -28,8 +29,10 @@ class FieldsFile {
   // where the first instants are not of these times or cannot be read.
   static FieldsFile resume(const std::filesystem::path& directory, const Scene& scene,
                            std::span<const double> times);
-  // Throws as resume() does, and touches nothing.
-  static void check_instants(const std::filesystem::path& directory, std::span<const double> times);
+  // Throws as resume() does, and touches nothing; also where these instants are not those of a digest, if one
+  // is given.
+  static void check_instants(const std::filesystem::path& directory, std::span<const double> times,
+                             const std::string& sha256 = {});
   // Removes what a FieldsFile left in `directory`, and nothing else. Throws OutputError.
   static void remove(const std::filesystem::path& directory);
 
@@ -40,6 +43,9 @@ class FieldsFile {
   // Throws OutputError if an instant has been removed since it was written.
   void check_still_there() const;
   std::size_t instants() const { return instants_.size(); }
+  // Of the values of all instants up to a time [s]: one that another run has written is known by it, in
+  // whatever file it lies.
+  std::string sha256(double until) const;
 
   // Joins all instants into one file. False, and nothing changed, where that was not possible (disk full).
   bool join();
@@ -57,6 +63,7 @@ class FieldsFile {
   struct Instant {
     double time = 0.0;
     bool has_solid_pressure = false;
+    std::string sha256;  // of all up to this
   };
 
   std::filesystem::path directory_;
@@ -64,6 +71,7 @@ class FieldsFile {
   std::array<int, 3> cells_{};
   Vec3 spacing_{};
   std::vector<Instant> instants_;
+  Digest digest_;
   std::size_t listed_ = 0;  // instants that the files on the disk list
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "solver/output/hdf5_file.hpp"
 
@@ -68,7 +69,25 @@ void write_vector(hid_t group, const char* name, const CellFields& fields,
   hdf5::write_compressed(group, name, shape, single);
 }
 
-std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name) {
+// Values of cells that lie in another order are those of a grid that is none of ours.
+void require_shape(hid_t group, const char* name, std::vector<hsize_t> shape, const CellFields& fields) {
+  const std::vector<hsize_t> grid{static_cast<hsize_t>(fields.cells[2]),
+                                  static_cast<hsize_t>(fields.cells[1]),
+                                  static_cast<hsize_t>(fields.cells[0])};
+  const std::vector<hsize_t> has = hdf5::shape_of(group, name);
+  shape.insert(shape.begin(), grid.begin(), grid.end());
+  if (has != shape)
+    throw std::runtime_error(fmt::format("{} has the shape ({}), allowed: ({})", name, fmt::join(has, ", "),
+                                         fmt::join(shape, ", ")));
+}
+
+std::vector<double> read_scalar(hid_t group, const char* name, const CellFields& fields) {
+  require_shape(group, name, {}, fields);
+  return hdf5::read_doubles(group, name);
+}
+
+std::array<std::vector<double>, 3> read_vector(hid_t group, const char* name, const CellFields& fields) {
+  require_shape(group, name, {3}, fields);
   const auto values = hdf5::read_doubles(group, name);
   std::array<std::vector<double>, 3> components;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -116,13 +135,13 @@ void write_instant(hid_t group, const CellFields& fields, const Vec3& spacing) {
 
 CellFields read_instant(hid_t file, hid_t group) {
   CellFields fields = read_solid_fraction_of(file, group);
-  fields.alpha = hdf5::read_doubles(group, "alpha");
-  fields.p_c = hdf5::read_doubles(group, "p_c");
-  fields.theta = hdf5::read_doubles(group, "theta");
-  fields.phi = hdf5::read_doubles(group, "phi");
-  if (hdf5::exists(group, "p_s")) fields.p_s = hdf5::read_doubles(group, "p_s");
-  fields.u_s = read_vector(group, "u_s");
-  fields.u_c = read_vector(group, "u_c");
+  fields.alpha = read_scalar(group, "alpha", fields);
+  fields.p_c = read_scalar(group, "p_c", fields);
+  fields.theta = read_scalar(group, "theta", fields);
+  fields.phi = read_scalar(group, "phi", fields);
+  if (hdf5::exists(group, "p_s")) fields.p_s = read_scalar(group, "p_s", fields);
+  fields.u_s = read_vector(group, "u_s", fields);
+  fields.u_c = read_vector(group, "u_c", fields);
   try {
     check_sizes(fields);
   } catch (const std::invalid_argument& error) {
@@ -148,6 +167,7 @@ CellFields read_solid_fraction_of(hid_t file, hid_t group) {
   fields.f_s = hdf5::read_doubles(group, "f_s");
   if (static_cast<double>(fields.f_s.size()) != count)
     throw std::runtime_error(fmt::format("f_s has {} values for {} cells", fields.f_s.size(), count));
+  require_shape(group, "f_s", {}, fields);
   return fields;
 }
 

@@ -169,7 +169,8 @@ ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, cons
                          up_to(scene.times.row_times, checkpoint.time));
   SeriesFile::check_unchanged(directory / series_name,
                               {checkpoint.rows.count, {}, {}, checkpoint.rows.sha256});
-  FieldsFile::check_instants(directory, up_to(scene.times.field_times, checkpoint.time));
+  FieldsFile::check_instants(directory, up_to(scene.times.field_times, checkpoint.time),
+                             checkpoint.instants_sha256);
   writer.resume_time_ = writer.checkpoint_time_ = checkpoint.time;
   writer.record_.start_date = existing->record.start_date;
   writer.record_.resumptions = existing->record.resumptions;
@@ -247,6 +248,7 @@ void RunWriter::write_checkpoint(const CheckpointView& state, const RunProgress&
   CheckpointView with_rows = state;
   const SeriesFacts rows = series_->facts();
   with_rows.rows = {rows.rows, rows.sha256};
+  with_rows.instants_sha256 = fields_->sha256(state.time);
   granvof::write_checkpoint(checkpoint_path(), scene_, with_rows);
   checkpoint_time_ = state.time;
   write_record(progress, {});

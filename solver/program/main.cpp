@@ -200,8 +200,16 @@ int parse_and_run(int argc, char** argv, const granvof::Communicator* processes)
   CLI::App& restate_command = *app.add_subcommand(
       "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
   add_case(restate_command, arguments);
+  const CLI::Validator within_reason(
+      [](const std::string& given) {
+        double value = 0.0;
+        const bool read = CLI::detail::lexical_cast(given, value);
+        return read && value >= 1e-30 && value <= 1e30 ? std::string()
+                                                       : given + " given, allowed: a number in [1e-30, 1e30]";
+      },
+      "FACTOR");
   const auto add_factor = [&](const char* name, double& factor, const char* help) {
-    restate_command.add_option(name, factor, help)->capture_default_str()->check(CLI::PositiveNumber);
+    restate_command.add_option(name, factor, help)->capture_default_str()->check(within_reason);
   };
   add_factor("--mass", arguments.factors.mass, "Factor of every mass: 1000 for grams");
   add_factor("--length", arguments.factors.length, "Factor of every length: 0.01 for a model of 1 to 100");

@@ -11,6 +11,7 @@ arrays under the same names. Everything in SI units; docs/output.md says what ea
 """
 
 import csv
+import hashlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -65,7 +66,30 @@ def load(directory, fields=True):
     if fields and is_there(directory / "fields.h5"):
         data = read_fields(directory / "fields.h5")
         units |= {name: unit for name, (unit, _) in FIELDS.items()}
+    require_stated(directory, facts, ("series.csv", "fields.h5") if fields else ("series.csv",))
     return Run(directory, series, data, facts, units)
+
+
+def require_stated(directory, facts, names):
+    """NotARun where a file of a finished run is not the one whose SHA-256 its record states: of another run, say. Of a run that
+    goes on the record is older than its files."""
+    stated, end = facts.get("files"), facts.get("exit")
+    if not isinstance(stated, dict) or not isinstance(end, dict) or end.get("state") != "finished":
+        return
+    for name in names:
+        about = stated.get(name)
+        digest = about.get("sha256") if isinstance(about, dict) else None
+        if not digest:  # a record of an earlier version, or instants in files of their own
+            continue
+        try:
+            with opened(directory / name, "rb") as file:
+                found = hashlib.sha256()
+                while block := file.read(1 << 20):
+                    found.update(block)
+        except OF_READING as error:
+            raise NotARun(f"{directory / name}: {error}") from error
+        if found.hexdigest() != digest:
+            raise NotARun(f"{directory / name}: it is not the file that was written (its SHA-256 is another)")
 
 
 def read_facts(path):

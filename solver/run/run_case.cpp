@@ -44,7 +44,7 @@ std::vector<Column> monitor_columns() {
   return columns;
 }
 
-std::vector<LedgerTerm> ledger() {
+std::vector<LedgerTerm> ledger_terms() {
   std::vector<LedgerTerm> terms;
   for (const EnergyTerm& term : energy_terms)
     terms.push_back({term.name, term.part.name, name_of(term.kind), term.sign, term.never_gains, term.label,
@@ -130,7 +130,7 @@ class Run {
 
 RunWriter Run::open_writer() {
   const RunStart start{"granvof",        options_.command, processes_of(options_),
-                       options_.threads, ledger(),         parts_of_model(scene_).act};
+                       options_.threads, ledger_terms(),   parts_of_model(scene_).act};
   if (!options_.resume)
     return RunWriter::fresh(options_.out, scene_, start, monitor_columns(), options_.force);
   ResumedRun resumed = RunWriter::resume(options_.out, scene_, start, monitor_columns());

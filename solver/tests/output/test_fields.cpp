@@ -170,6 +170,55 @@ TEST(FieldsFile, ADamagedInstantIsRefusedOnResumeLinkedOrJoined) {
   }
 }
 
+// An instant of the same time that another run has written, or of a file whose cells lie in another order.
+TEST(FieldsFile, AnInstantOfAnotherRunIsRefusedOnResumeLinkedOrJoined) {
+  const auto scene = small_scene();
+  const std::vector times{0.0, 0.1};
+  for (const bool joined : {false, true}) {
+    const TemporaryDirectory ours, others;
+    auto file = FieldsFile::create(ours.path(), scene), other = FieldsFile::create(others.path(), scene);
+    for (const double t : times) {
+      auto fields = numbered_fields(scene, t);
+      file.append(fields);
+      if (t > 0.0) fields.u_c[1].back() += 1.0;
+      other.append(fields);
+    }
+    const std::string written = file.sha256(0.1);
+    if (joined) {
+      ASSERT_TRUE(file.join() && other.join());
+    }
+    EXPECT_NO_THROW(FieldsFile::check_instants(ours.path(), times, written));
+    // A checkpoint of before the last of them knows those up to it.
+    EXPECT_NO_THROW(FieldsFile::check_instants(ours.path(), std::vector{0.0}, file.sha256(0.05)));
+    EXPECT_NO_THROW(FieldsFile::check_instants(ours.path(), {}, file.sha256(-1.0)));
+    EXPECT_EQ(FieldsFile::resume(ours.path(), scene, times).sha256(0.1), written);
+    if (joined) {
+      ASSERT_TRUE(FieldsFile::resume(ours.path(), scene, times).join());
+    }
+    const char* name = joined ? "fields.h5" : "fields/t0001.h5";
+    write_file_atomically(ours.path() / name, read_file(others.path() / name));
+    const auto text =
+        message_of<OutputError>([&] { FieldsFile::check_instants(ours.path(), times, written); });
+    EXPECT_NE(text.find("not what the run has written"), std::string::npos) << text;
+  }
+}
+
+TEST(FieldsFile, CellsInAnotherOrderAreRefused) {
+  const TemporaryDirectory directory;
+  const auto scene = small_scene();
+  auto file = FieldsFile::create(directory.path(), scene);
+  file.append(numbered_fields(scene, 0.0));
+  {
+    const auto piece = hdf5::open_for_writing(directory.path() / "fields/t0000.h5");
+    const auto group = hdf5::open_group(piece, "instant");
+    ASSERT_GE(H5Ldelete(group, "alpha", H5P_DEFAULT), 0);
+    const hsize_t shape[] = {8, 5, 1};
+    hdf5::write_compressed(group, "alpha", shape, std::vector<float>(40, 1.0F));
+  }
+  const auto text = message_of<OutputError>([&] { read_fields(directory.path() / "fields.h5", 0); });
+  EXPECT_NE(text.find("alpha has the shape (8, 5, 1), allowed: (1, 5, 8)"), std::string::npos) << text;
+}
+
 TEST(FieldsFile, AFullDiskIsReportedAndLeavesTheEarlierInstants) {
   const auto scene = make_scene(2, {100, 100, 1}, {1.0, 1.0, 1.0});
   const TemporaryDirectory directory;

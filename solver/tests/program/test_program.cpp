@@ -150,6 +150,9 @@ TEST_F(Program, RestatesACase) {
   EXPECT_NE(outcome.out.find("\nend = 10\n"), std::string::npos) << outcome.out;
   expect_refused("restate " + shipped("s1") + " --length 0", "--length");
   expect_refused("restate " + shipped("s1") + " --length long", "--length");
+  for (const char* value : {"nan", "inf", "-1", "1e308", "1e-320"})
+    expect_refused("restate " + shipped("s1") + " --mass " + value,
+                   "given, allowed: a number in [1e-30, 1e30]");
 }
 
 TEST_F(Program, TakesListsAndInlineTablesAsOverrides) {
