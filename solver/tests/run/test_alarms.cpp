@@ -117,7 +117,7 @@ TEST_F(RunAlarms, SoftContactIsSeenInThePacking) {
     return record_of({stiffness, "contact.solid_fraction_max=0.575", "contact.dense_solid_fraction=0.575"});
   };
   EXPECT_TRUE(warned(densest("contact.stiffness=10"), "solid fraction"));
-  EXPECT_FALSE(warned(densest("contact.stiffness=1e5"), "solid fraction"));
+  EXPECT_FALSE(warned(densest("contact.stiffness=1e7"), "solid fraction"));
 }
 
 // Grains that appear between two steps: a hundredth of all of them; and less than nothing in the empty cells.
