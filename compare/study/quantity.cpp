@@ -25,13 +25,18 @@ Curve front(const Run& run) {
   return run.curve("front_dense");
 }
 
+// A curve that can be asked for by name.
+struct CurveEntry {
+  std::string_view name;
+  Curve (*function)(const Run&);
+};
+
 constexpr std::array curves{
-    CurveEntry{"run_out", "T", "-", "(l - l0) / h0", run_out_curve},
-    CurveEntry{"run_out_dense", "T", "-", "(l - l0) / h0 by f_s >= 0.95 f_s,min", run_out_dense_curve},
-    CurveEntry{"front", "t [s]", "m", "largest x with f_s >= 0.95 f_s,min", front},
-    CurveEntry{"solid_height", "t [s]", "m", "centre of mass of all solids", solid_height},
-    CurveEntry{"liquid_front", "tau", "-", "x / a of the water front against t sqrt(2 g / a)",
-               scaled_liquid_front},
+    CurveEntry{"run_out", run_out_curve},              // (l - l0) / h0 [-] against T
+    CurveEntry{"run_out_dense", run_out_dense_curve},  // the same by f_s >= 0.95 f_s,min
+    CurveEntry{"front", front},                        // largest x with f_s >= 0.95 f_s,min [m] against t [s]
+    CurveEntry{"solid_height", solid_height},          // centre of mass of all solids [m] against t [s]
+    CurveEntry{"liquid_front", scaled_liquid_front},   // x / a of the water [-] against t sqrt(2 g / a)
 };
 
 const CurveEntry* find_curve(std::string_view name) {
@@ -57,10 +62,6 @@ std::string allowed() {
 }
 
 }  // namespace
-
-std::span<const CurveEntry> curve_table() {
-  return curves;
-}
 
 std::string Quantity::label() const {
   return labelled(name, parameters);

@@ -13,17 +13,6 @@
 
 namespace granvof::compare {
 
-// A curve that can be asked for by name.
-struct CurveEntry {
-  std::string_view name;
-  std::string_view abscissa;
-  std::string_view unit;
-  std::string_view description;
-  Curve (*function)(const Run&);
-};
-
-std::span<const CurveEntry> curve_table();
-
 struct Quantity {
   std::string name;       // of the metric or curve
   Parameters parameters;  // window: of the curve, or as the metric takes it

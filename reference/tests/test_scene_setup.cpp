@@ -84,10 +84,12 @@ TEST(SceneSetup, ASliceThinnerThanTwoBeadsIsRefused) {
 }
 
 TEST(SceneSetup, WhatOnlyTheContinuumHasIsRefused) {
-  for (const auto& [change, what] :
-       {std::pair{"walls.right.outflow_pressure=0", "an inlet or an outlet"},
-        std::pair{"obstacle={x0=[0.025], x1=[0.03], y0=[0], y1=[0.005]}", "obstacles"}})
-    EXPECT_NE(refusal({change}).find(what), std::string::npos) << refusal({change});
+  using Changes = std::vector<std::string>;
+  for (const auto& [changes, what] :
+       {std::pair{Changes{"walls.right.outflow_pressure=0"}, "a side is of kind outlet"},
+        std::pair{Changes{"walls.left=periodic", "walls.right=periodic"}, "a side is of kind periodic"},
+        std::pair{Changes{"obstacle={x0=[0.025], x1=[0.03], y0=[0], y1=[0.005]}"}, "obstacles"}})
+    EXPECT_NE(refusal(changes).find(what), std::string::npos) << refusal(changes);
 }
 
 TEST(SceneSetup, AnInclinedTankIsInclinedForBoth) {

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
-
-#include <fmt/format.h>
 
 #include "solver/output/extract_bed.hpp"
 #include "solver/output/extract_front.hpp"
@@ -82,21 +79,6 @@ Scalars extract_scalars(const CellFields& fields, const Scene& scene) {
   scalars.reserve(table.size());
   for (const auto& entry : table) scalars.push_back(entry.function(fields, scene));
   return scalars;
-}
-
-const ScalarEntry& scalar_entry(std::string_view name) {
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const auto& entry) { return entry.name == name; });
-  if (found == table.end()) throw std::out_of_range(fmt::format("there is no scalar '{}'", name));
-  return *found;
-}
-
-std::string scalar_table_markdown() {
-  std::string text = "| column | unit | meaning |\n|---|---|---|\n";
-  for (const auto& entry : table) {
-    fmt::format_to(std::back_inserter(text), "| {} | {} | {} |\n", entry.name, entry.unit, entry.description);
-  }
-  return text;
 }
 
 }  // namespace granvof

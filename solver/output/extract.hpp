@@ -33,10 +33,4 @@ using Scalars = std::vector<Value>;
 // std::domain_error naming field, cell and time for a value that is not finite.
 Scalars extract_scalars(const CellFields& fields, const Scene& scene);
 
-// The entry of one scalar. Throws std::out_of_range naming it.
-const ScalarEntry& scalar_entry(std::string_view name);
-
-// The table as Markdown rows "| name | unit | meaning |", for docs/output.md.
-std::string scalar_table_markdown();
-
 }  // namespace granvof

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/scene/side_kinds.hpp"
+
 namespace granvof {
 namespace {
 
@@ -39,6 +41,11 @@ class Canvas {
 )svg",
         px, py, anchor, words);
   }
+  void box(const char* of, const Box& b, const char* fill) {
+    add(R"svg(<rect class="{}" x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}"/>
+)svg",
+        of, x(b.lower[0]), y(b.upper[1]), x(b.upper[0]) - x(b.lower[0]), y(b.lower[1]) - y(b.upper[1]), fill);
+  }
   std::string finished() { return text_ + "</svg>\n"; }
 
  private:
@@ -46,9 +53,8 @@ class Canvas {
   std::string text_;
 };
 
-std::string kind_of(const Side& side) {
-  if (side.kind == SideKind::open) return "open";
-  if (side.kind == SideKind::periodic) return "periodic";
+std::string word_for(const Side& side) {
+  if (side.kind != SideKind::wall) return facts_of(side.kind).name;
   switch (side.solid.kind) {
     case WallKind::slip:
       return "slip";
@@ -60,15 +66,6 @@ std::string kind_of(const Side& side) {
       return fmt::format("bumpy {:g}", side.solid.bumpiness);
   }
   return "";
-}
-
-void draw_liquid(Canvas& canvas, const Scene& scene) {
-  for (const Box& box : scene.liquid_boxes)
-    canvas.add(
-        R"svg(<rect class="liquid" x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="#cfe3f5"/>
-)svg",
-        canvas.x(box.lower[0]), canvas.y(box.upper[1]), canvas.x(box.upper[0]) - canvas.x(box.lower[0]),
-        canvas.y(box.lower[1]) - canvas.y(box.upper[1]));
 }
 
 // The front face of a sloping bed leans back from its foot.
@@ -112,7 +109,7 @@ void draw_sides(Canvas& canvas, const Scene& scene) {
   canvas.line("side", l, 0.0, l, h, style(right));
   canvas.line("side", 0.0, 0.0, l, 0.0, style(bottom));
   canvas.line("side", 0.0, h, l, h, style(top));
-  const auto words = [&](SideIndex side) { return kind_of(scene.sides[side]); };
+  const auto words = [&](SideIndex side) { return word_for(scene.sides[side]); };
   canvas.label(canvas.x(0.5 * l), canvas.y(h) - 8.0, words(top));
   canvas.label(canvas.x(0.5 * l), canvas.y(0.0) + 18.0, words(bottom));
   canvas.label(canvas.x(0.0) - 6.0, canvas.y(0.5 * h), words(left), "end");
@@ -123,9 +120,10 @@ void draw_sides(Canvas& canvas, const Scene& scene) {
 
 std::string picture_of_start(const Scene& scene) {
   Canvas canvas(scene);
-  draw_liquid(canvas, scene);
+  for (const Box& liquid : scene.liquid_boxes) canvas.box("liquid", liquid, "#cfe3f5");
   draw_bed(canvas, scene);
   draw_grid(canvas, scene);
+  for (const Box& obstacle : scene.obstacles) canvas.box("obstacle", obstacle, "#777");
   draw_sides(canvas, scene);
   if (scene.gate)
     canvas.line("gate", scene.gate->position, 0.0, scene.gate->position, scene.tank[1],

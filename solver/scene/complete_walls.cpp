@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "solver/scene/completion.hpp"
+#include "solver/scene/side_kinds.hpp"
 #include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
@@ -17,12 +18,8 @@ std::string side_key(int side) {
   return "walls." + std::string(side_names[side]);
 }
 
-WallKind kind_of(SideWord word) {
-  return word == SideWord::slip ? WallKind::slip : WallKind::no_slip;
-}
-
 bool closed(const std::optional<SideWord>& word) {
-  return word != SideWord::open && word != SideWord::periodic;
+  return !word || word->kind == SideKind::wall;
 }
 
 // A word for a whole side that is not closed leaves no room for parts, unless they say all that a wall is.
@@ -30,11 +27,21 @@ void check_parts(const Completion& c, int side, const std::string& of, const std
   const SideInput& input = c.d.sides[side];
   if (closed(word) || (input.fluid && input.solid)) return;
   const std::string allowed =
-      fmt::format("nothing beside {} = {}; a wall there needs both {}.fluid and {}.solid", of,
-                  word == SideWord::open ? "\"open\"" : "\"periodic\"", side_key(side), side_key(side));
+      fmt::format(R"(nothing beside {} = "{}"; a wall there needs both {}.fluid and {}.solid)", of,
+                  facts_of(word->kind).name, side_key(side), side_key(side));
   for (const char* part : wall_parts) {
     if (c.given(side_key(side) + part)) c.refuse(side_key(side) + part, allowed);
   }
+}
+
+// The words that are left where one is for the top alone.
+void check_top_only(const Completion& c, int side) {
+  const std::optional<SideWord>& word = c.d.sides[side].word;
+  if (side == top || !word || !facts_of(word->kind).top_only) return;
+  std::string allowed = R"("no-slip" | "slip")";
+  for (const SideKindFacts& kind : side_kinds)
+    if (kind.by_word && !kind.top_only) allowed += fmt::format(R"( | "{}")", kind.name);
+  c.refuse(side_key(side), fmt::format("{}; only walls.top may be {}", allowed, facts_of(word->kind).name));
 }
 
 void check_side(const Completion& c, int side) {
@@ -47,9 +54,7 @@ void check_side(const Completion& c, int side) {
          {".inflow", ".inflow_solid_fraction", ".inflow_liquid_share", ".outflow_pressure", ".outflow_level"})
       c.only_in_3d(name + part);
   }
-  if (input.word == SideWord::open && side != top) {
-    c.refuse(name, R"("no-slip" | "slip" | "periodic"; only walls.top may be open)");
-  }
+  check_top_only(c, side);
   check_parts(c, side, name, input.word);
   if (input.velocity.empty()) return;
   c.components(name + ".velocity", input.velocity);
@@ -78,7 +83,7 @@ void check_bumps(const Completion& c, int side, bool bumpy) {
 // What a side does not say itself, by part or by word, walls.all says.
 void inherit(SideInput& own, const SideInput& all) {
   const auto part = [](const std::optional<WallKind>& kind, const std::optional<SideWord>& word) {
-    return kind || !word ? kind : std::optional(kind_of(*word));
+    return kind || !word ? kind : std::optional(word->wall);
   };
   const bool by_all = !own.solid && !own.word;
   own.fluid = part(own.fluid, own.word);
@@ -177,7 +182,7 @@ void fill_side(const Completion& c, int side) {
                                                                 : all.word;
   if (!input.word) check_parts(c, side, side_key(side_all), word);
   if (!closed(word) && !(input.fluid && input.solid)) {
-    to.kind = word == SideWord::open ? SideKind::open : SideKind::periodic;
+    to.kind = word->kind;
     input = {};
     input.word = word;
     return;

@@ -13,7 +13,12 @@
 
 namespace granvof::case_file {
 
-enum class SideWord { no_slip, slip, open, periodic };
+// What one word says of a whole side: its kind, and of a wall what it is to both phases.
+struct SideWord {
+  SideKind kind = SideKind::wall;
+  WallKind wall = WallKind::no_slip;
+  bool operator==(const SideWord&) const = default;
+};
 
 // Either one word for the whole side, or the phases apart.
 struct SideInput {

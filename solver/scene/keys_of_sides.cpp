@@ -1,15 +1,15 @@
 #include "solver/scene/keys_of_sides.hpp"
 
 #include "solver/scene/key_types.hpp"
+#include "solver/scene/side_kinds.hpp"
 #include "solver/scene/side_names.hpp"
 
 namespace granvof::case_file {
 
 std::vector<Key> side_keys(int side) {
-  const Words<SideWord> side_words{{"no-slip", SideWord::no_slip},
-                                   {"slip", SideWord::slip},
-                                   {"open", SideWord::open},
-                                   {"periodic", SideWord::periodic}};
+  Words<SideWord> side_words{{"no-slip", {}}, {"slip", {.wall = WallKind::slip}}};
+  for (const SideKindFacts& kind : side_kinds)
+    if (kind.by_word) side_words.emplace_back(kind.name, SideWord{.kind = kind.kind});
   const Words<WallKind> fluid_words{{"no-slip", WallKind::no_slip}, {"slip", WallKind::slip}};
   const Words<WallKind> solid_words{{"no-slip", WallKind::no_slip},
                                     {"slip", WallKind::slip},

@@ -10,6 +10,7 @@
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/scales.hpp"
+#include "solver/scene/side_kinds.hpp"
 
 namespace demvof {
 
@@ -146,10 +147,10 @@ void check_scene(const Scene& scene) {
   check_packing(scene);
   const std::size_t sides = flat(scene) ? 4 : 6;
   for (std::size_t s = 0; s < sides; ++s) {
-    if (scene.sides[s].kind == SideKind::periodic)
-      refuse(scene, "a wall is periodic, allowed: no-slip, slip, open");
-    if (scene.sides[s].kind == SideKind::inlet || scene.sides[s].kind == SideKind::outlet)
-      refuse(scene, "a side is an inlet or an outlet, allowed: no-slip, slip, open");
+    const SideKind kind = scene.sides[s].kind;
+    if (kind != SideKind::wall && kind != SideKind::open)
+      refuse(scene,
+             fmt::format("a side is of kind {}, allowed: no-slip, slip, open", granvof::facts_of(kind).name));
     for (const double v : scene.sides[s].velocity) {
       if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
     }

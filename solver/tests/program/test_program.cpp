@@ -132,6 +132,10 @@ TEST_F(Program, DrawsTheStart) {
   EXPECT_EQ(count(drawn(shipped("s1") + " --set grid.dx=0.00125"), "class=\"grid\""), 0);
   const std::string dam = drawn(shipped("dam-break"));
   EXPECT_EQ(count(dam, "class=\"bed\"") + count(dam, "class=\"gate\""), 0);
+  const std::string channel = drawn(shipped("channel"));
+  EXPECT_EQ(count(channel, ">inlet<") + count(channel, ">outlet<"), 2) << channel;
+  EXPECT_EQ(count(channel, ">no-slip<"), 2);
+  EXPECT_EQ(count(drawn(shipped("step")), "class=\"obstacle\""), 2);
   expect_refused("check " + shipped("s1") + " --picture /nonexistent/start.svg", "/nonexistent");
   // A picture is drawn over a picture, and over nothing else: the case itself, say.
   const std::filesystem::path other = pictures.path() / "s1.toml";
