@@ -36,7 +36,7 @@ class RunAlarms : public ::testing::Test {
     const auto run = directory_.path() / ("resumed" + std::to_string(++runs_));
     EXPECT_EQ(run_into(run, half), 0);
     Checkpoint saved = read_checkpoint(run / "checkpoint.h5", half);
-    CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows};
+    CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows, saved.instants_sha256};
     change(saved.arrays.at(field));
     for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
     write_checkpoint(run / "checkpoint.h5", half, view);
