@@ -300,7 +300,7 @@ TEST_F(RunCase, ANanEndsTheRunWithAReason) {
   for (const char* name : {"u_s0", "u_c1", "theta", "alpha", "f_s", "p_c"}) {
     ASSERT_EQ(run_into(path(name), half), 0);
     Checkpoint saved = read_checkpoint(path(name) / "checkpoint.h5", half);
-    CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows};
+    CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows, saved.instants_sha256};
     std::vector<double>& values = saved.arrays.at(name);
     values[static_cast<std::size_t>(Grid(half).cells.index(1, 2, 0))] = std::nan("");  // inside the bed
     for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
@@ -321,7 +321,7 @@ TEST_F(RunCase, ACheckpointWithWhatIsNotKnownIsRefused) {
   ASSERT_EQ(run_into(path("run"), scene), 0);
   const auto file = path("run") / "checkpoint.h5";
   const Checkpoint saved = read_checkpoint(file, scene);
-  CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows};
+  CheckpointView view{saved.time, {}, saved.scalars, saved.counters, saved.rows, saved.instants_sha256};
   for (const auto& [key, array] : saved.arrays) view.arrays[key] = array;
   const std::vector<double> values(8, 1.0);
   for (auto add :
