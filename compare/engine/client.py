@@ -78,6 +78,8 @@ class Engine:
             pass  # it has ended before
         self.process.wait()
         self.reader.join()
+        self.process.stdout.close()
+        self.process.stderr.close()
 
     def submit(self, order):
         """A Future of its Ending; EngineError where the engine ends before."""
