@@ -1,8 +1,10 @@
 """One style for all plots: fit for print, colour-blind safe, each stamped with what it was drawn from."""
 
+import io
 import textwrap
 
 import matplotlib
+from granvof_files import write_whole
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -57,11 +59,17 @@ def label_of_version(run):
 
 def save(figure, directory, name, pdf=True):
     """Writes <name>.png and, unless it is one of a picture for every run, <name>.pdf; gives the name back."""
-    directory.mkdir(parents=True, exist_ok=True)
-    figure.savefig(directory / f"{name}.png")
+    write_drawn(figure, directory / f"{name}.png")
     if pdf:
         figure.set_layout_engine("none")  # the layout is found once; it is the slow part
         # No creation date: the same results give the same file.
-        figure.savefig(directory / f"{name}.pdf", metadata={"CreationDate": None})
+        write_drawn(figure, directory / f"{name}.pdf", metadata={"CreationDate": None})
     plt.close(figure)
     return name
+
+
+def write_drawn(figure, path, **options):
+    """Drawn in memory first: on a full disk the writer of PDF fails by other errors than the system's."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format=path.suffix[1:], **options)
+    write_whole(path, drawn.getvalue())
