@@ -51,8 +51,7 @@ void CoupledSolver::set(const CoupledSystem& s) {
     if (!coupled_[d]) continue;
     float* to = k21_[d].data();
     Range faces = part_;
-    for (int e = 0; e < 3; ++e)
-      if (e == d && faces.upper[e] < user_.n[e]) ++faces.upper[e];
+    if (faces.upper[d] < user_.n[d]) ++faces.upper[d];
     const int n = faces.upper[0] - faces.lower[0];
     for_each_row(faces, [&](int j, int k) {
       float* row = to + all.index(faces.lower[0], j, k);

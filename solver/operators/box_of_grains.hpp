@@ -1,4 +1,4 @@
-// The part of the grid that holds grains: what the friction solver needs to work on.
+// The part of the grid that holds grains: what all that is of grains alone needs to work on.
 #pragma once
 
 #include "solver/operators/mixture.hpp"
@@ -14,8 +14,13 @@ Range box_of_grains(const Grid& grid, const FaceInertia& inertia, double least =
 Range box_of_grains(const Grid& grid, const Field& now, const Field& then,
                     double least = least_solid_fraction);
 
-// The faces of direction d of `box` as a box of their own in the memory of the grid's layout, the upper ones
-// included.
+// The faces of direction d of a part of the cells, the upper ones included.
+inline Range faces_of(Range cells, int d) {
+  ++cells.upper[d];
+  return cells;
+}
+
+// The same of `box` as a box of their own in the memory of the grid's layout.
 Layout faces_of(const Grid& grid, const Range& box, int d);
 
 }  // namespace granvof

@@ -59,15 +59,12 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
 // Solid fraction of a face below which P_s does not push its grains.
 double CoupledPressure::least_pushed() const {
   // With the explicit law no cell's P_s answers to what fills it within the step.
-  return scene_.numerics.contact_pressure == ContactPressure::implicit ? solid_that_counts
-                                                                       : least_solid_fraction;
+  return is_implicit() ? solid_that_counts : least_solid_fraction;
 }
 
 // Faces of the cells with a second row.
 Range CoupledPressure::pushed_faces(int d) const {
-  Range faces = pushed_;
-  ++faces.upper[d];
-  return common(faces, grid_.flux_faces(d));
+  return common(faces_of(pushed_, d), grid_.flux_faces(d));
 }
 
 // Response of both velocities to both pressure increments on every face:
@@ -257,7 +254,7 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
                                       const Aperture& aperture, State& next, FaceField& flux_s,
                                       FaceField& flux_c) {
   const Numerics& numerics = scene_.numerics;
-  const bool implicit = numerics.contact_pressure == ContactPressure::implicit;
+  const bool implicit = is_implicit();
   PressureReport report;
   pushed_ = box_of_grains(grid_, inertia, least_pushed());
   if (implicit) {

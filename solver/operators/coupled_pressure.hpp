@@ -44,6 +44,7 @@ class CoupledPressure {
                        FaceField& flux_c);
 
  private:
+  bool is_implicit() const { return scene_.numerics.contact_pressure == ContactPressure::implicit; }
   double least_pushed() const;
   Range pushed_faces(int d) const;
   void set_response(double dt, const FaceInertia& inertia, const FaceField& beta, const Aperture& aperture);

@@ -58,7 +58,7 @@ void CoupledPressure::extrapolate_points(double dt, const Field& f_s, const Face
 void CoupledPressure::linearise(const State& now, const Rheology& rheology) {
   const double* pf = point_f_.data();
   double *pp = point_p_.data(), *slope = slope_.data();
-  const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
+  const bool implicit = is_implicit();
   const double least = least_slope * load_;
   const auto pressure = law_of_cells(now, rheology, law_);
   for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) {
@@ -111,7 +111,7 @@ void CoupledPressure::set_pressures(double dt, const State& now, const Rheology&
   double *pc = next.p_c.data(), *ps = next.p_s.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { pc[c] += dpc[c]; });
   for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) { ps[c] = std::max(ps[c] + dps[c], 0.0); });
-  const bool implicit = scene_.numerics.contact_pressure == ContactPressure::implicit;
+  const bool implicit = is_implicit();
   const double* old = now.f_s.data();
   double* f = f_new_.data();
   const auto pressure = law_of_cells(now, rheology, law_);

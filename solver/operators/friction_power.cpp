@@ -52,10 +52,8 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
     const double inv_h = 1.0 / grid_.h[d];
     const double *x = v[d], *y = r[d], *m = marked_[d].data(), *own = mass[d].data(),
                  *end = next.u_s[d].data(), *mu = normal_viscosity(d);
-    Range faces = box_;
-    ++faces.upper[d];
     const auto work_on = [&](const double* velocity) {
-      return sum_over(grid_.cells, common(faces, grid_.inner_faces(d)), [=](std::ptrdiff_t c) {
+      return sum_over(grid_.cells, common(faces_of(box_, d), grid_.inner_faces(d)), [=](std::ptrdiff_t c) {
         return m[c] != 0.0 ? velocity[c] * (own[c] * x[c] - y[c]) : 0.0;
       });
     };

@@ -104,9 +104,7 @@ void GranularTemperature::conduct(double dt, const Rheology& rheology, State& ne
     const std::ptrdiff_t s = grid_.stride(d);
     const double inv_h2 = 1.0 / (grid_.h[d] * grid_.h[d]);
     double* k = conductivity_[d].data();
-    Range part = cells_;
-    ++part.upper[d];
-    for_each(grid_.cells, common(part, grid_.inner_faces(d)), [=](std::ptrdiff_t c) {
+    for_each(grid_.cells, common(faces_of(cells_, d), grid_.inner_faces(d)), [=](std::ptrdiff_t c) {
       // no conduction into cells without grains
       k[c] = mass[c] > 0.0 && mass[c - s] > 0.0 ? 0.5 * (kappa[c] + kappa[c - s]) * inv_h2 : 0.0;
     });
