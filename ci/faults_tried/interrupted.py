@@ -2,10 +2,12 @@
 
 import errno
 import json
+import os
+import shutil
 import signal
 import time
 
-from faults_tried.runs import SmallRun, crashed
+from faults_tried.runs import SmallRun, crashed, tree_of
 
 
 def kills(bench, entry):
@@ -53,6 +55,32 @@ def signals_at_calls(bench, entry):
             yield (f"{entry['case']}, call {number}: {name}",
                    "" if before else crashed(ended) or end_not_written(out) or run.why_not_whole(out))
             bench.drop(out)
+
+
+def swaps_at_calls(bench, entry):
+    """Another run is put in its place at the n-th call that changes a file: the other stays as it is, and what was moved goes on
+    from where it was as above, to its end at once where it does not notice any more."""
+    run, numbers = at_calls(bench, entry)
+    other = bench.place() / "run"
+    run.go(other, sets=entry["other"])
+    before = tree_of(other)
+    for number in numbers:
+        out = bench.place() / "run"
+        running = run.start(out, environment=bench.shimmed(FAULT_CALL=str(number), FAULT_SIGNAL=str(int(signal.SIGSTOP))))
+        has_stopped = os.waitid(os.P_PID, running.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT).si_code == os.CLD_STOPPED
+        moved = out.with_name("moved")
+        if has_stopped and out.exists():
+            out.rename(moved)
+            shutil.copytree(other, out)
+        running.send_signal(signal.SIGCONT)
+        code = running.wait()
+        if moved.exists():
+            wrong = "" if tree_of(out) == before else "it wrote into the other"
+            wrong = wrong or ("" if code in (0, 1, 2) else f"exit code {code}") or run.why_not_whole(moved)
+        else:
+            wrong = f"exit code {code}" if code else run.same_bytes(out)
+        yield f"{entry['case']}, call {number}", wrong
+        bench.drop(out)
 
 
 def end_not_written(out):

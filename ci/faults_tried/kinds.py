@@ -143,6 +143,6 @@ def locales(bench, entry):
 
 KINDS = {kind.__name__: kind for kind in (
     bad_values, contradictions, bad_files, no_programs, evidence.damaged_runs, evidence.damaged_records, evidence.damaged_reads, interrupted.kills, interrupted.kills_at_calls,
-    interrupted.failing_calls, interrupted.signals_at_calls, ranks.signals_to_ranks, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
+    interrupted.failing_calls, interrupted.signals_at_calls, interrupted.swaps_at_calls, ranks.signals_to_ranks, reading.failing_reads, reading.full_outputs, scarce.full_disks, mounts.full_tmpfs, mounts.read_only, scarce.limits, scarce.closed_streams,
     directories.two_in_one, directories.foreign, directories.damaged_resumes, directories.changed_keys, checkpoints.odd_checkpoints, moments.moments, hostile.hostile,
     hostile.odd_cases, hostile.own_files, orders.orders, orphans.orphans, orphans.ended_children, again.begun_again, caches.damaged_caches, exchanged.exchanged, fields_of_others.fields_of_others, reference_runs.reference_runs, scripts.scripts, surroundings.surroundings, surroundings.refusals, outputs, locales, scarce.long_runs, threads.thread_sanitizer)}

@@ -33,9 +33,10 @@ class SmallRun:
     def go(self, out, *words, sets=(), **options):
         return self.bench.call(self.command(out, *words, sets=sets), **{"patience": 600.0, **options})
 
-    def start(self, out, *words, command=None, stderr=subprocess.DEVNULL, preexec_fn=None):
+    def start(self, out, *words, command=None, environment=(), stderr=subprocess.DEVNULL, preexec_fn=None):
         return subprocess.Popen(command or self.command(out, *words), cwd=self.bench.root, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.DEVNULL, stderr=stderr, preexec_fn=told_of_our_end(preexec_fn))
+                                stdout=subprocess.DEVNULL, stderr=stderr, env={**os.environ, **dict(environment)},
+                                preexec_fn=told_of_our_end(preexec_fn))
 
     def go_on(self, out):
         """Resumed where there is a run; begun anew where there is none."""

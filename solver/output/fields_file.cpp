@@ -316,7 +316,7 @@ bool FieldsFile::join() {
     bring_up_to_date();
     const hdf5::QuietErrors quiet;
     reserve_for_joining(draft);
-    if (!succeeds_in_own_process([&] { write_joined(draft); }))
+    if (!succeeds_in_own_process(directory_, [&] { write_joined(draft.filename()); }))
       throw OutputError("write", draft, "HDF5 has not written it");
     const Descriptor written(::open(draft.c_str(), O_RDONLY | O_CLOEXEC));
     if (!written.valid()) throw OutputError("write", draft, "it has gone");
@@ -330,10 +330,10 @@ bool FieldsFile::join() {
   return true;
 }
 
-// HDF5 1.10 crashes where a write fails (an error of the disk): only to be called where that ends nothing
-// else.
+// In the directory as the working directory. HDF5 1.10 crashes where a write fails (an error of the disk):
+// only to be called where that ends nothing else.
 void FieldsFile::write_joined(const fs::path& draft) const {
-  const auto path = directory_ / file_name;
+  const fs::path path = file_name;
   const auto source = hdf5::open_for_reading(path);
   auto target = hdf5::open_for_writing(draft);
   write_file_attributes(target);

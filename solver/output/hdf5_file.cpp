@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
-#include <unistd.h>
 
 #include "solver/output/atomic_file.hpp"
 #include "solver/output/open_file.hpp"
@@ -135,9 +134,7 @@ Handle open_for_writing(const std::filesystem::path& path) {
 Handle open_for_reading(const std::filesystem::path& path) {
   // The library opens by name, and would wait for a pipe: it is given the name of what is open.
   const Descriptor file = open_file(path);
-  const std::string name = fmt::format("/proc/self/fd/{}", file.get());
-  const bool is_named = ::access(name.c_str(), F_OK) == 0;  // not where /proc is not there
-  const hid_t id = H5Fopen(is_named ? name.c_str() : path.c_str(), H5F_ACC_RDONLY, without_locks());
+  const hid_t id = H5Fopen(path_by_descriptor(file, path).c_str(), H5F_ACC_RDONLY, without_locks());
   if (id < 0) throw OutputError("read", path, last_error());
   return {id, H5Fclose};
 }

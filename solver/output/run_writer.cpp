@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "solver/output/build_info.hpp"
+#include "solver/output/open_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace granvof {
@@ -23,11 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* series_name = "series.csv";
+constexpr const char* checkpoint_name = "checkpoint.h5";
 constexpr const char* record_name = "run.json";
 constexpr double roundoff = 1e-9;  // times that differ by less are the same
 
 // What a run leaves in its directory beside run.json and its fields, and drafts of a run that was killed.
-constexpr std::array owned_names = {"checkpoint.h5", series_name, "run.log"};
+constexpr std::array owned_names = {checkpoint_name, series_name, "run.log"};
 
 void remove_owned(const fs::path& directory) {
   for (const char* name : owned_names) {
@@ -109,11 +111,30 @@ void remove_run(const fs::path& directory) {
   }
 }
 
+// Throws OutputError if the directory is in use by another run.
 RunWriter::RunWriter(fs::path directory, Scene scene, RunStart start, std::span<const Column> monitors)
     : directory_(std::move(directory)),
+      lock_(lock_directory(directory_)),
+      locked_(path_by_descriptor(lock_, directory_)),
       scene_(std::move(scene)),
       record_{std::move(start), iso_date_now(), {}},
       columns_(series_columns(monitors)) {}
+
+// What is done by the path of the lock, with the name that the user gave in its errors.
+template <typename Action>
+auto RunWriter::by_given_name(const Action& action) const {
+  try {
+    return action();
+  } catch (const OutputError& error) {
+    const auto named = [this](std::string text) {
+      const std::string locked = locked_.string();
+      for (auto at = text.find(locked); at != std::string::npos; at = text.find(locked, at + 1))
+        text.replace(at, locked.size(), directory_.string());
+      return text;
+    };
+    throw OutputError(error.action(), named(error.path().string()), named(error.cause()));
+  }
+}
 
 RunWriter RunWriter::fresh(const fs::path& directory, const Scene& scene, const RunStart& start,
                            std::span<const Column> monitors, bool force) {
@@ -121,62 +142,69 @@ RunWriter RunWriter::fresh(const fs::path& directory, const Scene& scene, const 
   fs::create_directories(directory, error);
   if (error) throw OutputError("create", directory, error.message());
   RunWriter writer(directory, scene, start, monitors);
-  writer.lock_ = lock_directory(directory);
-  const auto existing = read_existing_run(directory / record_name);
-  if (!existing && holds_anything(directory)) {
-    throw OutputError("write to", directory,
+  writer.by_given_name([&] { writer.check_replaceable(force); });
+  return writer;
+}
+
+void RunWriter::check_replaceable(bool force) const {
+  const auto existing = read_existing_run(locked_ / record_name);
+  if (!existing && holds_anything(locked_)) {
+    throw OutputError("write to", directory_,
                       "it holds files but no run of granvof; give an empty or new directory");
   }
-  if (existing && !force) {
-    std::string lost = difference(*existing, scene, start);
-    if (lost.empty() && existing->time > scene.times.end * (1.0 + roundoff))
-      lost = fmt::format("it is a run that came to t = {:.9g} s, this one ends at {:.9g} s", existing->time,
-                         scene.times.end);
-    if (!lost.empty())
-      throw OutputError("write to", directory, lost + "; give another directory, or --force to replace it");
-  }
-  return writer;
+  if (!existing || force) return;
+  std::string lost = difference(*existing, scene_, record_.start);
+  if (lost.empty() && existing->time > scene_.times.end * (1.0 + roundoff))
+    lost = fmt::format("it is a run that came to t = {:.9g} s, this one ends at {:.9g} s", existing->time,
+                       scene_.times.end);
+  if (!lost.empty())
+    throw OutputError("write to", directory_, lost + "; give another directory, or --force to replace it");
 }
 
 ResumedRun RunWriter::resume(const fs::path& directory, const Scene& scene, const RunStart& start,
                              std::span<const Column> monitors) {
   RunWriter writer(directory, scene, start, monitors);
-  writer.lock_ = lock_directory(directory);
-  const auto existing = read_existing_run(directory / record_name);
-  const bool saved = fs::exists(writer.checkpoint_path());
-  if (!existing && (saved || holds_anything(directory) || fs::is_empty(directory)))
-    throw OutputError("resume", directory, "it holds no run of granvof");
-  if (!existing) return {std::move(writer), std::nullopt, {}};
-  if (const std::string other = difference(*existing, scene, start); !other.empty()) {
-    throw OutputError("resume", directory, other + "; only time.end and output that is due later may change");
+  auto saved = writer.by_given_name([&] { return writer.read_saved(); });
+  return {std::move(writer), std::move(saved.checkpoint), std::move(saved.warnings)};
+}
+
+RunWriter::SavedState RunWriter::read_saved() {
+  const auto existing = read_existing_run(locked_ / record_name);
+  const auto checkpoint_file = locked_ / checkpoint_name;
+  const bool saved = fs::exists(checkpoint_file);
+  if (!existing && (saved || holds_anything(locked_) || fs::is_empty(locked_)))
+    throw OutputError("resume", directory_, "it holds no run of granvof");
+  if (!existing) return {};
+  if (const std::string other = difference(*existing, scene_, record_.start); !other.empty()) {
+    throw OutputError("resume", directory_,
+                      other + "; only time.end and output that is due later may change");
   }
   if (saved && existing->version != build_info().version) {
-    throw OutputError("resume", directory,
+    throw OutputError("resume", directory_,
                       fmt::format("it was begun by version {}, this is {}; go on with that, or run it anew",
                                   existing->version, build_info().version));
   }
   if (!saved && existing->has_checkpoint)
-    throw OutputError("resume", directory, "its checkpoint.h5 has gone; run it anew without --resume");
-  if (!saved) return {std::move(writer), std::nullopt, {}};
-  Checkpoint checkpoint = read_checkpoint(writer.checkpoint_path(), scene);
-  if (checkpoint.time >= scene.times.end) {
-    throw OutputError("resume", directory,
+    throw OutputError("resume", directory_, "its checkpoint.h5 has gone; run it anew without --resume");
+  if (!saved) return {};
+  Checkpoint checkpoint = read_checkpoint(checkpoint_file, scene_);
+  if (checkpoint.time >= scene_.times.end) {
+    throw OutputError("resume", directory_,
                       fmt::format("its checkpoint is of t = {:.9g} s, and the case ends at {:.9g} s",
-                                  checkpoint.time, scene.times.end));
+                                  checkpoint.time, scene_.times.end));
   }
-  SeriesFile::check_unchanged(directory / series_name, existing->series);
-  SeriesFile::rows_until(directory / series_name, writer.columns_,
-                         up_to(scene.times.row_times, checkpoint.time));
-  SeriesFile::check_unchanged(directory / series_name,
-                              {checkpoint.rows.count, {}, {}, checkpoint.rows.sha256});
-  FieldsFile::check_instants(directory, up_to(scene.times.field_times, checkpoint.time),
+  const auto series = locked_ / series_name;
+  SeriesFile::check_unchanged(series, existing->series);
+  SeriesFile::rows_until(series, columns_, up_to(scene_.times.row_times, checkpoint.time));
+  SeriesFile::check_unchanged(series, {checkpoint.rows.count, {}, {}, checkpoint.rows.sha256});
+  FieldsFile::check_instants(locked_, up_to(scene_.times.field_times, checkpoint.time),
                              checkpoint.instants_sha256);
-  writer.resume_time_ = writer.checkpoint_time_ = checkpoint.time;
-  writer.record_.start_date = existing->record.start_date;
-  writer.record_.resumptions = existing->record.resumptions;
-  writer.record_.resumptions.push_back({iso_date_now(), checkpoint.time, start.threads,
-                                        case_changes(existing->resolved_case, scene.resolved)});
-  return {std::move(writer), std::move(checkpoint), existing->warnings};
+  resume_time_ = checkpoint_time_ = checkpoint.time;
+  record_.start_date = existing->record.start_date;
+  record_.resumptions = existing->record.resumptions;
+  record_.resumptions.push_back({iso_date_now(), checkpoint.time, record_.start.threads,
+                                 case_changes(existing->resolved_case, scene_.resolved)});
+  return {std::move(checkpoint), existing->warnings};
 }
 
 // Whether the directory is still the one that this run has locked.
@@ -187,9 +215,14 @@ bool RunWriter::is_in_place() const {
          ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 
+void RunWriter::open_beside(const std::function<void(const fs::path&)>& open) const {
+  by_given_name([&] { open(locked_); });
+}
+
 std::optional<double> RunWriter::checkpoint_time() const {
   std::error_code none;
-  return is_in_place() && fs::is_regular_file(checkpoint_path(), none) ? checkpoint_time_ : std::nullopt;
+  return is_in_place() && fs::is_regular_file(locked_ / checkpoint_name, none) ? checkpoint_time_
+                                                                               : std::nullopt;
 }
 
 void RunWriter::require_in_place() const {
@@ -210,65 +243,77 @@ void RunWriter::start_writing() {
 void RunWriter::start_fresh() {
   // The new run.json is on the disk before anything of an earlier run goes, and takes its name last: a
   // directory whose replacement was cut short is still known as a run.
-  const auto record = directory_ / record_name;
+  const auto record = locked_ / record_name;
   RunProgress nothing;
   nothing.cells = std::int64_t{1} * scene_.grid.cells[0] * scene_.grid.cells[1] * scene_.grid.cells[2];
   write_beside(record, run_record_text(scene_, record_, nothing, {}, {}));
-  remove_owned(directory_);
+  remove_owned(locked_);
   rename_into_place(record);
   begun_ = true;
-  fields_ = FieldsFile::create(directory_, scene_);
-  series_ = SeriesFile::create(directory_ / series_name, columns_);
+  fields_ = FieldsFile::create(locked_, scene_);
+  series_ = SeriesFile::create(locked_ / series_name, columns_);
 }
 
 void RunWriter::start_resumed(double time) {
   begun_ = true;
-  fields_ = FieldsFile::resume(directory_, scene_, up_to(scene_.times.field_times, time));
-  series_ = SeriesFile::resume(directory_ / series_name, columns_, up_to(scene_.times.row_times, time));
+  fields_ = FieldsFile::resume(locked_, scene_, up_to(scene_.times.field_times, time));
+  series_ = SeriesFile::resume(locked_ / series_name, columns_, up_to(scene_.times.row_times, time));
 }
 
 void RunWriter::write_series_row(double time, std::span<const Value> monitors, const Scalars& scalars) {
-  start_writing();
   std::vector<Value> row{time};
   row.insert(row.end(), monitors.begin(), monitors.end());
   row.insert(row.end(), scalars.begin(), scalars.end());
-  series_->append(row);
+  by_given_name([&] {
+    start_writing();
+    series_->append(row);
+  });
 }
 
 void RunWriter::write_fields(const CellFields& fields) {
-  start_writing();
-  fields_->append(fields);
+  by_given_name([&] {
+    start_writing();
+    fields_->append(fields);
+  });
 }
 
 void RunWriter::write_checkpoint(const CheckpointView& state, const RunProgress& progress) {
-  start_writing();
-  series_->flush_to_disk();
-  fields_->check_still_there();
-  fields_->bring_up_to_date();
-  CheckpointView with_rows = state;
-  const SeriesFacts rows = series_->facts();
-  with_rows.rows = {rows.rows, rows.sha256};
-  with_rows.instants_sha256 = fields_->sha256(state.time);
-  granvof::write_checkpoint(checkpoint_path(), scene_, with_rows);
-  checkpoint_time_ = state.time;
-  write_record(progress, {});
+  by_given_name([&] {
+    bring_files_up_to_date();
+    CheckpointView with_rows = state;
+    const SeriesFacts rows = series_->facts();
+    with_rows.rows = {rows.rows, rows.sha256};
+    with_rows.instants_sha256 = fields_->sha256(state.time);
+    granvof::write_checkpoint(locked_ / checkpoint_name, scene_, with_rows);
+    checkpoint_time_ = state.time;
+    write_record(progress, {});
+  });
 }
 
 void RunWriter::write_progress(const RunProgress& progress) {
-  start_writing();
-  write_record(progress, {});
+  by_given_name([&] {
+    start_writing();
+    write_record(progress, {});
+  });
 }
 
 void RunWriter::finish(const RunProgress& progress, const RunExit& exit) {
+  by_given_name([&] {
+    bring_files_up_to_date();
+    // A run that may go on keeps its instants apart; where joining fails the linked form stays, just as
+    // readable.
+    if (exit.state == ExitState::finished && fields_->join())
+      fields_sha256_ = digest_of_file(locked_ / "fields.h5");
+    write_record(progress, exit);
+  });
+}
+
+// series.csv and the list of the instants, on the disk.
+void RunWriter::bring_files_up_to_date() {
   start_writing();
   series_->flush_to_disk();
   fields_->check_still_there();
   fields_->bring_up_to_date();
-  // A run that may go on keeps its instants apart; where joining fails the linked form stays, just as
-  // readable.
-  if (exit.state == ExitState::finished && fields_->join())
-    fields_sha256_ = digest_of_file(directory_ / "fields.h5");
-  write_record(progress, exit);
 }
 
 void RunWriter::give_up(const RunProgress& progress, const std::string& reason, ExitKind kind) noexcept {
@@ -285,7 +330,7 @@ void RunWriter::give_up(const RunProgress& progress, const std::string& reason, 
 void RunWriter::note_end_of_copy(const std::string& reason) noexcept {
   if (!is_in_place()) return;
   try {
-    const auto text = ended_record_text(read_file(directory_ / record_name), {ExitState::failed, reason});
+    const auto text = ended_record_text(read_file(locked_ / record_name), {ExitState::failed, reason});
     if (text) replace_record(*text);
   } catch (const std::exception&) {
     return;  // as above
@@ -295,9 +340,9 @@ void RunWriter::note_end_of_copy(const std::string& reason) noexcept {
 // On a full disk too.
 void RunWriter::replace_record(const std::string& text) {
   try {
-    write_file_atomically(directory_ / record_name, text);
+    write_file_atomically(locked_ / record_name, text);
   } catch (const OutputError&) {
-    overwrite_file(directory_ / record_name, text);
+    overwrite_file(locked_ / record_name, text);
   }
 }
 
@@ -309,7 +354,7 @@ FilesWritten RunWriter::files() const {
 void RunWriter::write_record(const RunProgress& progress, const RunExit& exit) {
   const std::string text = run_record_text(scene_, record_, progress, files(), exit);
   require_in_place();  // as late as can be: what is put in its place until then is another's
-  write_file_atomically(directory_ / record_name, text);
+  write_file_atomically(locked_ / record_name, text);
 }
 
 }  // namespace granvof

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,28 +65,42 @@ class RunWriter {
   void note_end_of_copy(const std::string& reason) noexcept;
 
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
+  // Calls `open` with a path to the directory that this run has locked, whatever stands under its name by
+  // now: for a file that another writes there. Throws what it throws, an OutputError with the name of the
+  // directory.
+  void open_beside(const std::function<void(const std::filesystem::path&)>& open) const;
   // Time of the checkpoint on the disk [s]; none yet, or none any more, none.
   std::optional<double> checkpoint_time() const;
 
  private:
   RunWriter(std::filesystem::path directory, Scene scene, RunStart start, std::span<const Column> monitors);
+  struct SavedState {
+    std::optional<Checkpoint> checkpoint;
+    std::vector<Warning> warnings;
+  };
+  void check_replaceable(bool force) const;
+  SavedState read_saved();
+  template <typename Action>
+  auto by_given_name(const Action& action) const;
   void start_writing();
   bool is_in_place() const;
   void require_in_place() const;
   void start_fresh();
   void start_resumed(double time);
+  void bring_files_up_to_date();
   void write_record(const RunProgress& progress, const RunExit& exit);
   void replace_record(const std::string& text);
   FilesWritten files() const;
 
-  std::filesystem::path directory_;
+  std::filesystem::path directory_;  // as given: for messages
+  Descriptor lock_;
+  std::filesystem::path locked_;  // the same by what the lock holds: for every file
   Scene scene_;
   RunRecord record_;
   std::vector<Column> columns_;
   std::optional<double> resume_time_, checkpoint_time_;
   std::string fields_sha256_;
   bool begun_ = false;  // run.json is that of this run
-  Descriptor lock_;
   std::optional<SeriesFile> series_;
   std::optional<FieldsFile> fields_;
 };

@@ -230,7 +230,7 @@ int Run::give_up(ExitKind kind, const std::string& reason) {
 int Run::go() {
   try {
     writer_.write_progress(progress());  // run.json must not show an old end while this goes on
-    log_.open(options_.out, !begins_);
+    writer_.open_beside([this](const auto& directory) { log_.open(directory, !begins_); });
     spdlog::info("{}: granvof {}, {} thread{}: {}", scene_.name, build_info().version, options_.threads,
                  options_.threads == 1 ? "" : "s", options_.command);
     if (begins_) write_output(true, due_output(scene_.times, -1.0, loop_.now().time));

@@ -14,7 +14,7 @@ class RunLog {
   RunLog& operator=(const RunLog&) = delete;
   ~RunLog();
   // Opens it; what is said from now on goes there too. Throws OutputError where a pipe or a
-  // device has its name, spdlog::spdlog_ex where it cannot be opened.
+  // device has its name, or it cannot be opened.
   void open(const std::filesystem::path& directory, bool resumed);
 
  private:

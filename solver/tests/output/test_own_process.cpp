@@ -13,18 +13,18 @@ namespace {
 
 TEST(OwnProcess, SaysWhetherTheWorkWasDone) {
   const test::TemporaryDirectory directory;
-  const auto file = directory.path() / "file";
-  EXPECT_TRUE(succeeds_in_own_process([&] { std::ofstream(file) << "done"; }));
+  EXPECT_TRUE(succeeds_in_own_process(directory.path(), [] { std::ofstream("file") << "done"; }));
   std::string word;
-  std::ifstream(file) >> word;
+  std::ifstream(directory.path() / "file") >> word;
   EXPECT_EQ(word, "done");
-  EXPECT_FALSE(succeeds_in_own_process([] { throw std::runtime_error("no"); }));
+  EXPECT_FALSE(succeeds_in_own_process(directory.path(), [] { throw std::runtime_error("no"); }));
+  EXPECT_FALSE(succeeds_in_own_process(directory.path() / "none", [] {}));
 }
 
 TEST(OwnProcess, ACrashIsNoneOfThisProcess) {
-  EXPECT_FALSE(succeeds_in_own_process([] { std::raise(SIGKILL); }));
+  EXPECT_FALSE(succeeds_in_own_process(".", [] { std::raise(SIGKILL); }));
   std::signal(SIGSEGV, SIG_DFL);
-  EXPECT_FALSE(succeeds_in_own_process([] { std::raise(SIGSEGV); }));
+  EXPECT_FALSE(succeeds_in_own_process(".", [] { std::raise(SIGSEGV); }));
 }
 
 }  // namespace

@@ -302,6 +302,26 @@ TEST_F(RunDirectory, LeavesWhatHasTakenItsPlace) {
   EXPECT_EQ(std::distance(std::filesystem::recursive_directory_iterator(run), {}), 2);
 }
 
+// It may be put there at any moment: what is written goes to what was locked, and errors keep the name given.
+TEST_F(RunDirectory, WritesByWhatItHasLocked) {
+  auto writer = fresh();
+  write_row(writer, 0.0);
+  writer.open_beside([&](const std::filesystem::path& locked) {
+    std::filesystem::rename(run, run.string() + ".moved");
+    std::filesystem::create_directories(run);
+    std::ofstream(locked / "run.log") << "ours";
+  });
+  EXPECT_TRUE(std::filesystem::is_empty(run));
+  EXPECT_EQ(read_file(run.string() + ".moved/run.log"), "ours");
+  const auto text = message_of<OutputError>([&] {
+    writer.open_beside([](const std::filesystem::path& locked) {
+      throw OutputError("write", locked / "run.log", (locked / "run.log").string() + " is full");
+    });
+  });
+  EXPECT_EQ(text,
+            "cannot write " + (run / "run.log").string() + ": " + (run / "run.log").string() + " is full");
+}
+
 TEST_F(RunDirectory, NamesNoCheckpointThatHasGone) {
   auto writer = fresh();
   write_row(writer, 0.0);
