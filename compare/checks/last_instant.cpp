@@ -1,5 +1,6 @@
 #include "compare/checks/last_instant.hpp"
 
+#include "compare/metrics/flow_section.hpp"
 #include "compare/metrics/fluid_pressure.hpp"
 #include "compare/metrics/known_state.hpp"
 #include "solver/output/fields_file.hpp"
@@ -42,6 +43,22 @@ Measured settling_slip(const Run& run, const Parameters&, const FindRun&) {
 Measured asymmetry(const Run& run, const Parameters&, const FindRun&) {
   return of_last_fields(
       run, [](const CellFields& f) { return std::optional(mirror_distance(f)); }, "");
+}
+
+Measured middle_depth(const Run& run, const Parameters&, const FindRun&) {
+  return of_last_fields(
+      run, [](const CellFields& f) { return std::optional(liquid_depth_in_the_middle(f)); }, "");
+}
+
+Measured film(const Run& run, const Parameters&, const FindRun&) {
+  return of_last_fields(
+      run, [&](const CellFields& f) { return film_distance(f, run.scene); }, "no liquid in the middle");
+}
+
+Measured reattachment(const Run& run, const Parameters&, const FindRun&) {
+  return of_last_fields(
+      run, [&](const CellFields& f) { return reattachment_length(f, run.scene); },
+      "no flow back along the floor behind an obstacle");
 }
 
 }  // namespace granvof::compare

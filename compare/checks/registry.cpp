@@ -341,6 +341,17 @@ constexpr std::array table{
     MetricEntry{"asymmetry", "-",
                 "largest difference of f_s or alpha between a cell and its mirror image in x, at the end",
                 none, asymmetry},
+    MetricEntry{"liquid_depth", "m", "of the liquid in the middle of the tank, at the end", none,
+                middle_depth},
+    MetricEntry{
+        "film_distance", "-",
+        "largest distance of the flow in the middle of the tank from Nusselt's film, over its largest, "
+        "at the end",
+        none, film},
+    MetricEntry{
+        "reattachment_length", "-",
+        "over which the flow behind an obstacle goes back along the floor, over its height, at the end", none,
+        reattachment},
     MetricEntry{"settling_slip", "m/s", "u_c - u_s along y at mid-height at the end", none, settling_slip},
     MetricEntry{"solid_volume_error", "-", "largest relative change of the solid volume", none,
                 solid_volume_error},

@@ -72,6 +72,12 @@ std::optional<double> film_speed(const Run& run, const Parameters&) {
   return scene.liquid.density * gravity_of(scene)[0] / scene.liquid.viscosity * (depth * y - 0.5 * y * y);
 }
 
+std::optional<double> film_depth(const Run& run, const Parameters&) {
+  const Scene& scene = run.scene;
+  const double volume = scene.sides[left].inflow.speed * scene.tank[1];
+  return std::cbrt(3.0 * volume * scene.liquid.viscosity / (scene.liquid.density * gravity_of(scene)[0]));
+}
+
 std::optional<double> channel_speed(const Run& run, const Parameters&) {
   return 1.5 * run.scene.sides[left].inflow.speed;
 }
@@ -140,7 +146,7 @@ std::optional<double> sliding_energy(const Run& run, const Parameters& p) {
   return 0.5 * run.scene.solid.density * grains * *speed * *speed;
 }
 
-constexpr std::array<FormulaEntry, 15> table{{
+constexpr std::array<FormulaEntry, 16> table{{
     {"density_ratio", "-", "h/H = rho_s / rho_l (balance of weight and buoyancy; paper, section 4.3)",
      density_ratio},
     {"floating_period", "s",
@@ -164,6 +170,8 @@ constexpr std::array<FormulaEntry, 15> table{{
     {"solid_fraction_max", "-", "f_s,max of (13)", solid_fraction_max},
     {"film_speed", "m/s",
      "u = rho g sin(theta) / mu (h y - y^2 / 2) at the uppermost cells' centres (Nusselt 1916)", film_speed},
+    {"film_depth", "m", "h = (3 q mu / (rho g sin(theta)))^(1/3), q what comes in (Nusselt 1916)",
+     film_depth},
     {"channel_speed", "m/s", "3/2 of the mean speed between plates (Poiseuille)", channel_speed},
     {"sliding_speed", "m/s",
      "(g sin(theta) - mu_w g cos(theta)) t, a block down a Coulomb floor; mu_w g t, on one that moves "

@@ -28,6 +28,11 @@ TEST(Theory, SpeedOfAFilm) {
   EXPECT_NEAR(value_of("film_speed", "inclined-film"), 0.0766087, 1e-6);
 }
 
+// 0.032 m/s through 0.016 m; (3 x 5.12e-4 m2/s / 1533.13 1/(m s))^(1/3).
+TEST(Theory, DepthOfAFilm) {
+  EXPECT_NEAR(value_of("film_depth", "open-channel"), 0.0100062, 1e-7);
+}
+
 // 0.04 m high, 0.27 m long, 12 degrees: the face is 0.188185 m; (0.27 - 0.178776) / (0.27 - 0.009409).
 TEST(Theory, TopOfAHeap) {
   EXPECT_NEAR(value_of("heap_flat_top", "heap"), 0.350065, 1e-5);

@@ -6,6 +6,11 @@
 
 namespace granvof {
 
+// Whether rows of cells along d end there at a side that passes no fluid.
+inline bool ends_closed(const Grid& grid, int d, bool upper) {
+  return !grid.cells.seam(d, upper) && !grid.side(d, upper).passes_fluid;
+}
+
 // Sum of weight * body(edge) over the edges of plane (d, e). An edge on a side counts half: the stress there
 // acts on one row of faces only. Seams count once. In a corner of two closed sides the stress acts on
 // no face whose momentum is solved, and does no work.
@@ -19,10 +24,9 @@ double sum_over_edges(const Grid& grid, int d, int e, Body&& body) {
   const auto stretches = [&](int direction) {
     const int n = grid.cells.n[direction];
     const bool below = !grid.cells.seam(direction, false), above = !grid.cells.seam(direction, true);
-    const auto closed = [&](bool upper) { return !grid.side(direction, upper).passes_fluid; };
-    return std::array<Stretch, 3>{{{0, 1, below ? 0.5 : 0.0, closed(false)},
+    return std::array<Stretch, 3>{{{0, 1, below ? 0.5 : 0.0, ends_closed(grid, direction, false)},
                                    {below ? 1 : 0, n, 1.0, false},
-                                   {n, n + 1, above ? 0.5 : 0.0, closed(true)}}};
+                                   {n, n + 1, above ? 0.5 : 0.0, ends_closed(grid, direction, true)}}};
   };
   SumOfParts sum(grid.cells);
   for (const Stretch& a : stretches(d)) {

@@ -125,10 +125,13 @@ double FluidViscosity::power_on_side(const FaceField& u_c, int d, bool upper) co
                return 0.5 * (w[c] + w[c - s]) * stress(c);
              });
     if (solved) continue;
-    const double inv_he = 1.0 / grid_.h[e];
-    power -= 0.5 * inv_he * sum_over(grid_.cells, faces, [=](std::ptrdiff_t c) {
-               return v[c] * (stress(c + t) - stress(c));
-             });
+    // In a corner of two sides that pass nothing else no stress works, see sum_over_edges().
+    Range above = faces, below = faces;
+    if (ends_closed(grid_, e, true)) above.upper[e] -= 1;
+    if (ends_closed(grid_, e, false)) below.lower[e] += 1;
+    power -= 0.5 / grid_.h[e] *
+             (sum_over(grid_.cells, above, [=](std::ptrdiff_t c) { return v[c] * stress(c + t); }) -
+              sum_over(grid_.cells, below, [=](std::ptrdiff_t c) { return v[c] * stress(c); }));
   }
   return power * grid_.cell_volume;
 }

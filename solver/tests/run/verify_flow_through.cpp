@@ -178,6 +178,19 @@ TEST(Plates, TurnAPlugIntoAParabola) {
 
 // Water that comes up through a bed at rest: the pressure falls by the drag of the law in question, beta u /
 // f_c^2 per length at the superficial speed u (at low Re the 150 of Ergun), beside the weight of the water.
+// A corner of an inlet and a wall: its shear acts on no face whose momentum is solved, and is in neither side
+// of the account. Viscosity is explicit in these steps, so that its work is that of what it did.
+TEST(Plates, TakeWhatTheInletGives) {
+  Simulation run(channel({"walls.top=no-slip", "walls.bottom=no-slip", "grid.dx=0.005",
+                          "liquid.viscosity=0.02", "numerics.dt_max=0.005"}));
+  Account account(run);
+  account.until(0.5);
+  const EnergyTerms& energy = run.now.energy;
+  const double turnover = energy_turnover(run.scene, account.start, energy);
+  EXPECT_GT(energy.viscosity, 0.01 * turnover);
+  EXPECT_LT(std::fabs(energy.residual), 1e-6 * turnover);
+}
+
 TEST(Bed, TakesThePressureOfErgun) {
   for (const char* law : {"paper", "di-felice", "beetstra"}) {
     Simulation run(
