@@ -58,8 +58,14 @@ std::optional<double> minimum(const Curve& curve) {
 
 Curve mean_curve(const std::vector<Curve>& curves) {
   Curve mean;
-  mean.widest = curves.front().widest;
-  for (const double x : curves.front().time) {
+  std::vector<double> times;
+  for (const Curve& curve : curves) {
+    mean.widest = std::min(mean.widest, curve.widest);
+    times.insert(times.end(), curve.time.begin(), curve.time.end());
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  for (const double x : times) {
     double sum = 0.0;
     bool covered = true;
     for (const Curve& curve : curves) {

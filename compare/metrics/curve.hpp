@@ -45,8 +45,8 @@ std::optional<double> time_mean(const Curve& curve);
 std::optional<double> maximum(const Curve& curve);
 std::optional<double> minimum(const Curve& curve);
 
-// The mean of curves of the same quantity, at the times of the first where all have a value; at least one
-// curve.
+// The mean of curves of the same quantity, at the times of any where all have a value, so that it ends where
+// the first of them ends, in whatever order they are given; at least one curve.
 Curve mean_curve(const std::vector<Curve>& curves);
 
 }  // namespace granvof::compare

@@ -53,5 +53,19 @@ TEST(Curve, ExtremesOfNothingAreUndefined) {
   EXPECT_FALSE(minimum(Curve{}));
 }
 
+// Two records whose column is not quite as high have other time scales: the mean reaches to the end of the
+// shorter, whichever comes first.
+TEST(Curve, MeanEndsWhereTheShorterEnds) {
+  const Curve shorter{.time = {0.0, 1.0, 2.0}, .value = {0.0, 1.0, 2.0}, .widest = 1.5};
+  const Curve longer{.time = {0.0, 1.01, 2.02}, .value = {0.0, 2.02, 4.04}, .widest = 1.5};
+  for (const auto& curves : {std::vector{shorter, longer}, std::vector{longer, shorter}}) {
+    const Curve mean = mean_curve(curves);
+    ASSERT_FALSE(mean.empty());
+    EXPECT_DOUBLE_EQ(mean.time.back(), 2.0);
+    EXPECT_NEAR(value_at(mean, 2.0).value(), 3.0, 1e-12);
+    EXPECT_NEAR(value_at(mean, 1.5).value(), 2.25, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace granvof::compare
