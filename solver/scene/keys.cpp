@@ -154,10 +154,13 @@ std::vector<Key> numerics_keys() {
           MEMBER(scene.numerics.solid_flux),
           "Flux of f_s and convection of both momenta: " + sources_of<closures::SlopeLimiters>() +
               "; the latter two of second order, bounded; that of a gas over a liquid stays of first order."),
-      choice(
-          parts::bed_surface, "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
-          "Contact needs f_s,min in the whole cell (the paper), or grains that fill a part of a cell at the "
-          "bed's surface bear their own weight, and friction by it."),
+      // Which grains bear load is physics, whatever table it stands in.
+      scoped(came_later(choice(parts::bed_surface, "numerics.bed_surface", surfaces,
+                               MEMBER(scene.numerics.bed_surface),
+                               "Contact needs f_s,min in the whole cell (the paper), or grains that fill a "
+                               "part of a cell at the "
+                               "bed's surface bear their own weight, and friction by it.")),
+             Scope::model),
       choice(parts::interface, "numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
              "Flux of alpha in (24): compressive (the paper), geometric with split sweeps, or first order."),
       choice(

@@ -295,6 +295,16 @@ TEST(Hash, OfTheReferenceKnowsTheDragLaw) {
   EXPECT_NE(other.reference_hash, small().reference_hash);
 }
 
+// It is among the numerics, but says which grains bear load: a case with the paper's is what it was.
+TEST(Hash, KnowsTheSurfaceOfTheBed) {
+  const Scene named = small({"numerics.bed_surface=whole-cells"}),
+              other = small({"numerics.bed_surface=part-cells"});
+  EXPECT_EQ(small().hash, "320b056412e6bc9b");
+  EXPECT_EQ(named.hash, small().hash);
+  EXPECT_NE(other.hash, small().hash);
+  EXPECT_EQ(other.reference_hash, small().reference_hash);
+}
+
 TEST(Hash, OfTheReferenceIgnoresTheContinuumsModel) {
   for (const char* change : {"model.drag=false", "contact.stiffness=1e7"}) {
     EXPECT_NE(small({change}).hash, small().hash) << change;
