@@ -39,7 +39,7 @@ inline PressureAndSlope elastic_pressure(double f_s, const Contact& c) {
 
 inline constexpr double dense_pressure_cap = 0.005;  // least f_s0 - f_s in (15), which is singular at f_s0
 
-// P_s^D [Pa], eq (15): 15 rho_s Theta (1 - e) (a' f_s f_s0 / (f_s0 - f_s))^(2/delta) (model correction 3).
+// P_s^D [Pa], eq (15): 15 rho_s Theta (1 - e) (a' f_s f_s0 / (f_s0 - f_s))^(2/delta) (corrections of (15)).
 // f_s0 moves with `packing` as (13) does: it is the packing of a dense flow that comes to rest. (Left in its
 // place, a bed at rest at 0.61 sits on the singularity, and blows up within 5 ms of its release.)
 inline PressureAndSlope dense_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,

@@ -178,7 +178,7 @@ void GranularTemperature::predict(double dt, const State& now, const Field& beta
     out[c] = 0.0;
     if (f[c] < least_collisional_fraction) return;
     const LocalBalance b = at(c);
-    // tau^K : S of (16), without the printed factor 2 (model correction 2)
+    // tau^K : S of (16), without the printed factor 2 (corrections of (7))
     const double production =
         at.viscosity(c) * (2.0 * sq[c] + (closures::bulk_to_shear_viscosity - 2.0 / 3.0) * div[c] * div[c]);
     const double inertia = steady ? 0.0 : 3.0 * f[c] * rho_s / dt;

@@ -127,7 +127,7 @@ struct Model {
   DragLaw drag_law;
   bool les = true;                        // eq (10)
   TemperatureModel granular_temperature;  // eq (7)
-  bool pressure_work = true;              // -P_s^K div u_s in (7), see correction 2 of the model
+  bool pressure_work = true;              // -P_s^K div u_s in (7), see the corrections of (7)
   bool dilatancy_pressure = true;         // P_s^EF, eq (14)
   bool kinetic_viscosity = true;          // mu_s^K and zeta_s^K, eqs (20), (21)
   RadialDistribution radial_distribution;

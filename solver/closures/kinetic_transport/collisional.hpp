@@ -5,7 +5,7 @@
 
 namespace granvof::closures {
 
-// kappa_s^K / mu_s^K of (20) and (22); the flux uses f_s kappa_s^K (model correction 11).
+// kappa_s^K / mu_s^K of (20) and (22); the flux uses f_s kappa_s^K (correction of (22)).
 inline constexpr double conductivity_to_viscosity = 5.0 / 2.0;
 
 struct TransportCollisional {

@@ -89,8 +89,8 @@ TEST(GranularTemperature, CoolsByHaffsLaw) {
   EXPECT_NEAR(coarse / fine, 2.0, 0.15);  // first order in time
 }
 
-// Production against collisions in simple shear of rate G: Theta = d^2 G^2 / (15 (1 - e)) (model, correction
-// 3).
+// Production against collisions in simple shear of rate G: Theta = d^2 G^2 / (15 (1 - e)), see the
+// corrections of (15).
 TEST(GranularTemperature, SteadySimpleShear) {
   const double e = 0.9, d = 1e-3, shear = 20.0;
   const double steady = d * d * shear * shear / (15.0 * (1.0 - e));

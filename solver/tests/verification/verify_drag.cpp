@@ -17,7 +17,7 @@ void PrintTo(const Beads& b, std::ostream* out) {
 }
 
 // Eqs (8), (9) as printed, with Re = rho |w| d / mu and the Wen & Yu branch through C_D itself; the blend
-// over f_c in [0.78, 0.82] is the code's (correction 6 of the model).
+// over f_c in [0.78, 0.82] is the code's (correction of (8)).
 double printed_drag(double f_s, double w, const Beads& b) {
   const double f_c = 1.0 - f_s, d = b.diameter, rho = b.liquid_density, mu = b.liquid_viscosity;
   const double re = rho * w * d / mu;

@@ -65,12 +65,12 @@ TEST(HomogeneousCooling, HaffsLaw) {
 }
 
 // Steady simple shear between no-slip walls: f_s, Theta and shear are uniform, and production balances
-// dissipation, f_s mu^K G^2 = gamma (correction 2 of the model; the printed factor 2 would give twice Theta):
+// dissipation, f_s mu^K G^2 = gamma (corrections of (7); the printed factor 2 would give twice Theta):
 //   Theta = d^2 G^2 / (15 (1 - e)),
-// which with (15) is the dense-flow law 1/f_s = 1/f_s0 + a' I^delta, I = d G / sqrt(P / rho_s) (correction 3;
-// with the printed lambda read as zeta - 2/3 mu, 9 (1 - e), P_s would be 9/15 of it).
-// f_s = 0.568, where P^D > P^K and grains do not yet touch. Grid 4 x 16. Tolerance 0.5 %: the state is
-// uniform, what is left is the approach to the steady state.
+// which with (15) is the dense-flow law 1/f_s = 1/f_s0 + a' I^delta, I = d G / sqrt(P / rho_s) (corrections
+// of (15); with the printed lambda read as zeta - 2/3 mu, 9 (1 - e), P_s would be 9/15 of it). f_s = 0.568,
+// where P^D > P^K and grains do not yet touch. Grid 4 x 16. Tolerance 0.5 %: the state is uniform, what is
+// left is the approach to the steady state.
 TEST(SimpleShear, SteadyBalance) {
   const double f = 0.568, e = 0.7, d = 1e-3, height = 0.016, speed = 0.16, rho = 1000.0;
   const double rate = 2.0 * speed / height;
