@@ -20,8 +20,9 @@ Draft read_draft(const CaseText& text, Faults& faults);
 // scene, all but its file, resolved text and hashes. Throws CaseError for these faults and all it finds.
 Scene complete(Draft& draft, const CaseText& text, Faults& faults);
 
-// Canonical text of a completed draft, and the hash of its keys in the given scopes.
+// Canonical text of a completed draft, and the hash of its keys in the given scopes, of those of the list.
 std::string resolved_text(const Draft& draft);
-std::string hash_of(const Draft& draft, const std::vector<Scope>& scopes);
+std::string hash_of(const Draft& draft, const std::vector<Scope>& scopes,
+                    const std::vector<Key>& of = keys());
 
 }  // namespace granvof::case_file

@@ -24,7 +24,7 @@ inline bool of_a_size(double x) {
 // Whether a number, or one of a list, is finite but not of such a size.
 bool beyond_doubles(const Value& value);
 
-struct Range {
+struct Bounds {
   double lower = -infinity, upper = infinity;
   bool lower_open = false, upper_open = false;
 
@@ -34,11 +34,11 @@ struct Range {
   std::string text() const;  // " >= 0", " in (0, 0.9]", or nothing
 };
 
-inline constexpr Range any{};
-inline constexpr Range positive{.lower = 0.0, .lower_open = true};
-inline constexpr Range not_negative{.lower = 0.0};
-inline constexpr Range share{.lower = 0.0, .upper = 1.0};
-inline constexpr Range part{.lower = 0.0, .upper = 1.0, .lower_open = true, .upper_open = true};
+inline constexpr Bounds any{};
+inline constexpr Bounds positive{.lower = 0.0, .lower_open = true};
+inline constexpr Bounds not_negative{.lower = 0.0};
+inline constexpr Bounds share{.lower = 0.0, .upper = 1.0};
+inline constexpr Bounds part{.lower = 0.0, .upper = 1.0, .lower_open = true, .upper_open = true};
 
 template <class Enum>
 using Words = std::vector<std::pair<std::string, Enum>>;
@@ -67,16 +67,16 @@ std::string text_of(const T& member) {
   }
 }
 
-bool read_value(double& to, const Value& from, const Range& range);
-bool read_value(int& to, const Value& from, const Range& range);
-bool read_value(bool& to, const Value& from, const Range& range);
-bool read_value(std::string& to, const Value& from, const Range& range);
-bool read_value(std::vector<double>& to, const Value& from, const Range& range);
-bool read_value(std::vector<int>& to, const Value& from, const Range& range);
+bool read_value(double& to, const Value& from, const Bounds& bounds);
+bool read_value(int& to, const Value& from, const Bounds& bounds);
+bool read_value(bool& to, const Value& from, const Bounds& bounds);
+bool read_value(std::string& to, const Value& from, const Bounds& bounds);
+bool read_value(std::vector<double>& to, const Value& from, const Bounds& bounds);
+bool read_value(std::vector<int>& to, const Value& from, const Bounds& bounds);
 template <class T>
-bool read_value(std::optional<T>& to, const Value& from, const Range& range) {
+bool read_value(std::optional<T>& to, const Value& from, const Bounds& bounds) {
   T value{};
-  if (!read_value(value, from, range)) return false;
+  if (!read_value(value, from, bounds)) return false;
   to = value;
   return true;
 }
@@ -100,20 +100,20 @@ std::string type_name() {
   }
 }
 
-std::string allowed_text(const std::string& type, const Range& range, const std::string& unit);
+std::string allowed_text(const std::string& type, const Bounds& bounds, const std::string& unit);
 
 // A key whose default is the member's initial value, unless `otherwise` or required(...) says something else.
 template <class Access>
-Key key(std::string name, std::string unit, const Range& range, Access access, std::string help) {
+Key key(std::string name, std::string unit, const Bounds& bounds, Access access, std::string help) {
   using T = member_of<Access>;
   Key k;
   k.name = std::move(name);
   k.type = type_name<T>();
   k.unit = std::move(unit);
-  k.allowed = allowed_text(k.type, range, k.unit);
+  k.allowed = allowed_text(k.type, bounds, k.unit);
   k.help = std::move(help);
-  k.set = [access, range](Draft& draft, const Value& value) {
-    return read_value(access(draft), value, range);
+  k.set = [access, bounds](Draft& draft, const Value& value) {
+    return read_value(access(draft), value, bounds);
   };
   k.get = [access](const Draft& draft) { return text_of(access(draft)); };
   if constexpr (std::is_same_v<T, bool>) k.words = {toml_text(false), toml_text(true)};
@@ -124,9 +124,9 @@ Key key(std::string name, std::string unit, const Range& range, Access access, s
 
 // The same of another part than its [table]'s, or of a table whose keys are of many.
 template <class Access>
-Key key(const Part& owner, std::string name, std::string unit, const Range& range, Access access,
+Key key(const Part& owner, std::string name, std::string unit, const Bounds& bounds, Access access,
         std::string help) {
-  Key k = key(std::move(name), std::move(unit), range, access, std::move(help));
+  Key k = key(std::move(name), std::move(unit), bounds, access, std::move(help));
   k.part = &owner;
   return k;
 }
@@ -139,9 +139,10 @@ inline Key otherwise(Key k, std::string text) {
   k.otherwise = std::move(text);
   return k;
 }
-// Out of the hashes at its default, see Key::unhashed.
-inline Key came_later(Key k) {
-  k.unhashed = k.otherwise;
+// Out of the hashes at `unhashed`, the default that it came with, see there. A later default is another
+// matter.
+inline Key came_later(Key k, std::string unhashed) {
+  k.unhashed = std::move(unhashed);
   return k;
 }
 inline Key scoped(Key k, Scope scope) {
@@ -210,21 +211,21 @@ Key choice(const Part& owner, std::string name, Words<Enum> words, Access access
 
 // A key that takes a number or one of a few words; its member is a variant of the two.
 template <class Enum, class Access>
-Key number_or_word(std::string name, std::string unit, const Range& range, Words<Enum> words, Access access,
+Key number_or_word(std::string name, std::string unit, const Bounds& bounds, Words<Enum> words, Access access,
                    std::string help) {
   Key k;
   k.name = std::move(name);
   k.type = "number or word";
   k.unit = std::move(unit);
-  k.allowed = allowed_text("number", range, k.unit) + " | " + word_list(words);
+  k.allowed = allowed_text("number", bounds, k.unit) + " | " + word_list(words);
   k.help = std::move(help);
-  k.set = [access, words, range](Draft& draft, const Value& value) {
+  k.set = [access, words, bounds](Draft& draft, const Value& value) {
     if (const Enum* found = find_word(words, value)) {
       access(draft) = *found;
       return true;
     }
     double number = 0.0;
-    if (!read_value(number, value, range)) return false;
+    if (!read_value(number, value, bounds)) return false;
     access(draft) = number;
     return true;
   };

@@ -26,7 +26,7 @@ std::vector<Key> scene_keys() {
       required(key("scene.name", "", any, MEMBER(scene.name), "Name of the case; equals the file's stem.")),
       otherwise(key("scene.title", "", any, MEMBER(scene.title), "One line for plots and reports."),
                 "scene.name"),
-      scoped(key(parts::grid, "scene.dimensions", "-", Range{.lower = 2, .upper = 3},
+      scoped(key(parts::grid, "scene.dimensions", "-", Bounds{.lower = 2, .upper = 3},
                  MEMBER(scene.dimensions), "2 or 3."),
              Scope::setup),
       required(
@@ -36,11 +36,11 @@ std::vector<Key> scene_keys() {
           "1"),
       key(parts::momentum, "tank.gravity", "m/s2", not_negative, MEMBER(scene.gravity),
           "Acts against y in a level tank."),
-      came_later(
-          key(parts::momentum, "tank.inclination", "degrees",
-              Range{.lower = -90.0, .upper = 90.0, .lower_open = true, .upper_open = true},
-              MEMBER(scene.inclination),
-              "Of the floor, down towards +x: g = gravity (sin, -cos). Levels and beds stay along x.")),
+      came_later(key(parts::momentum, "tank.inclination", "degrees",
+                     Bounds{.lower = -90.0, .upper = 90.0, .lower_open = true, .upper_open = true},
+                     MEMBER(scene.inclination),
+                     "Of the floor, down towards +x: g = gravity (sin, -cos). Levels and beds stay along x."),
+                 "0"),
       required(key("grid.dx", "m", positive, MEMBER(dx), "Cell size in x; divides the tank's size.")),
       otherwise(key("grid.dy", "m", positive, MEMBER(dy), "Cell size in y."), "grid.dx"),
       otherwise(key("grid.dz", "m", positive, MEMBER(dz), "3D only: cell size in z."), "grid.dx"),
@@ -76,7 +76,7 @@ std::vector<Key> bed_keys() {
                                       {"layers", ColourPattern::layers},
                                       {"columns", ColourPattern::columns},
                                       {"checks", ColourPattern::checks}};
-  const Range angle{.lower = 0.0, .upper = 90.0, .lower_open = true};
+  const Bounds angle{.lower = 0.0, .upper = 90.0, .lower_open = true};
   return {
       key("bed.x", "m", not_negative, MEMBER(bed.x), "Where the bed begins."),
       required(key("bed.length", "m", positive, MEMBER(bed.length), "l0, along x.")),
@@ -141,7 +141,7 @@ std::vector<Key> numerics_keys() {
   const Words<ContactPressure> contact_pressures{{"implicit", ContactPressure::implicit},
                                                  {"explicit", ContactPressure::explicit_}};
   return {
-      key(parts::time_step, "numerics.cfl", "-", Range{.lower = 0.0, .upper = 0.9, .lower_open = true},
+      key(parts::time_step, "numerics.cfl", "-", Bounds{.lower = 0.0, .upper = 0.9, .lower_open = true},
           MEMBER(scene.numerics.cfl), "Convective Courant number of a step."),
       otherwise(key(parts::time_step, "numerics.dt_max", "s", positive, MEMBER(scene.numerics.dt_max),
                     "Longest step."),
@@ -155,12 +155,13 @@ std::vector<Key> numerics_keys() {
           "Flux of f_s and convection of both momenta: " + sources_of<closures::SlopeLimiters>() +
               "; the latter two of second order, bounded; that of a gas over a liquid stays of first order."),
       // Which grains bear load is physics, whatever table it stands in.
-      scoped(came_later(choice(parts::bed_surface, "numerics.bed_surface", surfaces,
-                               MEMBER(scene.numerics.bed_surface),
-                               "Contact needs f_s,min in the whole cell (the paper), or grains that fill a "
-                               "part of a cell at the "
-                               "bed's surface bear their own weight, and friction by it.")),
-             Scope::model),
+      scoped(
+          came_later(
+              choice(parts::bed_surface, "numerics.bed_surface", surfaces, MEMBER(scene.numerics.bed_surface),
+                     "Contact needs f_s,min in the whole cell (the paper), or grains that fill a "
+                     "part of a cell at the bed's surface bear their own weight, and friction by it."),
+              R"("whole-cells")"),
+          Scope::model),
       choice(parts::interface, "numerics.interface_scheme", schemes, MEMBER(scene.numerics.interface_scheme),
              "Flux of alpha in (24): compressive (the paper), geometric with split sweeps, or first order."),
       choice(
@@ -172,7 +173,7 @@ std::vector<Key> numerics_keys() {
           "Largest volume error of a cell in one step, as a share of the cell."),
       key(parts::pressure, "numerics.linear_tolerance", "-", part, MEMBER(scene.numerics.linear_tolerance),
           "Residual reduction of one linear solve inside Newton."),
-      key(parts::pressure, "numerics.newton_max", "-", Range{.lower = 4, .upper = 1000},
+      key(parts::pressure, "numerics.newton_max", "-", Bounds{.lower = 4, .upper = 1000},
           MEMBER(scene.numerics.newton_max), "Most Newton iterations of a step."),
   };
 }
@@ -183,18 +184,20 @@ std::vector<Key> reference_keys() {
                                          {"instant", ReferenceRelease::instant}};
   const Words<ReferenceConvection> convections{{"upwind", ReferenceConvection::upwind},
                                                {"van-leer", ReferenceConvection::van_leer}};
-  const Range poisson{.lower = -1.0, .upper = 0.5, .lower_open = true, .upper_open = true};
+  const Bounds poisson{.lower = -1.0, .upper = 0.5, .lower_open = true, .upper_open = true};
   return {
       required(
           key("reference.cell", "m", positive, MEMBER(reference.settings.cell), "Edge of a fluid cell.")),
       key("reference.fluid_dt", "s", positive, MEMBER(reference.settings.fluid_dt), "Fluid step."),
       key("reference.dt", "s", positive, MEMBER(reference.settings.dt),
           "DEM step; with coarse_graining that many times longer; at most fluid_dt."),
-      came_later(key("reference.coarse_graining", "-", Range{.lower = 1.0, .upper = 10.0},
+      came_later(key("reference.coarse_graining", "-", Bounds{.lower = 1.0, .upper = 10.0},
                      MEMBER(reference.settings.coarse_graining),
-                     "Bead's over grain's diameter: a bead stands for its cube of grains.")),
+                     "Bead's over grain's diameter: a bead stands for its cube of grains."),
+                 "1"),
       came_later(choice("reference.convection", convections, MEMBER(reference.settings.convection),
-                        "Of the fluid's momentum: of first order, or of second, limited.")),
+                        "Of the fluid's momentum: of first order, or of second, limited."),
+                 R"("upwind")"),
       otherwise(key("reference.slice_depth", "m", positive, MEMBER(reference.slice_depth),
                     "Depth of the slice; required in 2D, 2D only."),
                 "the tank's (3D)"),

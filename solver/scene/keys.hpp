@@ -43,8 +43,10 @@ struct Key {
   Scope scope = Scope::unset;
   const Part* part = nullptr;  // whose key it is; while the table is built none: that of its [table]
   bool documented = true;      // false for the sides after the first: they share one row
-  // Value at which the key stays out of the hashes. For a key that came when there were records: a case that
-  // does not use it is the case that was recorded. Empty: the key is in the hash at any value.
+  // Value at which the key stays out of the hashes, as canonical TOML. For a key that came when there were
+  // records: a case that does not use it is the case that was recorded. It is stated for good, not taken from
+  // the default: where that changes, cases of the old one keep their hash and those of the new one get
+  // another. Empty: the key is in the hash at any value; one without a value is in none.
   std::string unhashed = {};
   std::vector<std::string> words = {};  // of a key that takes nothing but these, as canonical TOML
 

@@ -29,9 +29,9 @@ std::string resolved_text(const Draft& draft) {
   return text;
 }
 
-std::string hash_of(const Draft& draft, const std::vector<Scope>& scopes) {
+std::string hash_of(const Draft& draft, const std::vector<Scope>& scopes, const std::vector<Key>& of) {
   std::string text;
-  for (const Key& key : keys()) {
+  for (const Key& key : of) {
     if (!draft.tables.contains(key.table()) || !std::ranges::count(scopes, key.scope)) continue;
     const std::string value = key.get(draft);
     if (!value.empty() && value != key.unhashed) text += fmt::format("{}={}\n", key.name, value);

@@ -1,12 +1,19 @@
 // The table of keys itself.
+#include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "solver/scene/case_error.hpp"
+#include "solver/scene/case_text.hpp"
+#include "solver/scene/complete.hpp"
+#include "solver/scene/key_types.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/presets.hpp"
 
 namespace granvof::case_file {
 namespace {
@@ -31,10 +38,87 @@ TEST(Keys, StandTogetherByTable) {
   }
 }
 
+// What a case file says of a key in that text; nothing where the text is a sentence.
+std::optional<Value> value_of(const Key& key, const std::string& text) {
+  try {
+    return read_case_text(key.name + " = " + text, "default", {}).entries.at(key.name).value;
+  } catch (const CaseError&) {
+    return std::nullopt;
+  }
+}
+
+// The key takes the value, and gives back that text.
+void expect_taken(const Key& key, const std::string& text, Draft& draft) {
+  const auto value = value_of(key, text);
+  ASSERT_TRUE(value) << key.name << ": " << text;
+  EXPECT_TRUE(key.set(draft, *value)) << key.name << ": " << text << ", allowed: " << key.allowed;
+  EXPECT_EQ(key.get(draft), text) << key.name;
+}
+
+// Of each key that has one, the presets' included. What depends on other keys is stated as a sentence.
 TEST(Keys, ADefaultIsAllowed) {
+  std::size_t values = 0;
+  for (const Key& key : keys()) {
+    std::vector<std::string> defaults;
+    if (const Choice* choice = find_choice(key.name))
+      for (const PresetEntry& entry : presets()) defaults.push_back(text_under(*choice, entry.preset));
+    else if (!key.required() && (key.otherwise == key.get(Draft{}) || value_of(key, key.otherwise)))
+      defaults.push_back(key.otherwise);
+    for (const std::string& text : defaults) {
+      Draft draft;
+      expect_taken(key, text, draft);
+      ++values;
+    }
+  }
+  EXPECT_GT(values, 100U);
   Draft draft;
-  EXPECT_TRUE(find_key("numerics.cfl")->set(draft, draft.scene.numerics.cfl));
   EXPECT_FALSE(find_key("numerics.cfl")->set(draft, -draft.scene.numerics.cfl));
+}
+
+// Another value that a key takes.
+std::string another(const Key& key, const std::string& than) {
+  std::vector<std::string> tried = key.words;
+  for (const char* number : {"0.6", "0.5", "2", "1"}) tried.emplace_back(number);
+  for (const std::string& text : tried) {
+    Draft draft;
+    const auto value = value_of(key, text);
+    if (value && key.set(draft, *value) && key.get(draft) != than) return key.get(draft);
+  }
+  return "";
+}
+
+// Who changes the default of a key that came later changes what a case without it means, and the hash of that
+// alone: a case that says the old value is the case that was recorded.
+TEST(Keys, ALaterDefaultMovesNoHashButItsOwn) {
+  const std::vector<Scope> scopes{Scope::setup, Scope::model, Scope::reference};
+  std::size_t pinned = 0;
+  for (std::size_t i = 0; i < keys().size(); ++i) {
+    const Key& key = keys()[i];
+    if (key.unhashed.empty()) continue;
+    ++pinned;
+    std::vector<Key> before = keys(), later = keys();
+    before.erase(before.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::string now = another(key, key.unhashed);
+    ASSERT_NE(now, "") << key.name;
+    later[i] = came_later(otherwise(key, now), key.unhashed);
+    Draft stated, in_force;
+    stated.tables = in_force.tables = {key.table()};
+    expect_taken(key, key.unhashed, stated);
+    expect_taken(key, now, in_force);
+    EXPECT_EQ(hash_of(stated, scopes, later), hash_of(stated, scopes)) << key.name;
+    EXPECT_EQ(hash_of(stated, scopes), hash_of(stated, scopes, before)) << key.name;
+    EXPECT_NE(hash_of(in_force, scopes, later), hash_of(stated, scopes)) << key.name;
+  }
+  EXPECT_GE(pinned, 22U);
+}
+
+// Whatever the defaults are by now: what was not there when the records were made, was not used.
+TEST(Keys, AKeyWithoutAValueIsInNoHash) {
+  for (const Key& key : keys()) {
+    if (key.table() != "walls") continue;
+    EXPECT_EQ(key.unhashed, "") << key.name;
+    EXPECT_EQ(key.get(Draft{}), "") << key.name;
+  }
 }
 
 // A choice of the model takes the words of its list of closures, in their order.
