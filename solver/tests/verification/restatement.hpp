@@ -6,7 +6,7 @@
 
 #include "solver/scene/restate.hpp"
 #include "solver/scene/scales.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 

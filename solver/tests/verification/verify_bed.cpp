@@ -6,7 +6,7 @@
 #include "solver/closures/contact_friction.hpp"
 #include "solver/closures/solid_pressure.hpp"
 #include "solver/output/extract_front.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "solver/output/extract_front.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

@@ -1,7 +1,7 @@
 // Implicit against explicit contact pressure: two ways through the same equations that must meet.
 #include <cmath>
 
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

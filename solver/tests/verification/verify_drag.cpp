@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "solver/closures/drag/drag.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "solver/output/extract_liquid.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

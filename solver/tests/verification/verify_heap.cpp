@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/output/extract_front.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

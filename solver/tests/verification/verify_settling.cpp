@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "solver/closures/drag/drag.hpp"
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

@@ -1,5 +1,5 @@
 // Shear dilatancy in whole scenes: dense beds start at rest and suck when they shear, loose ones push.
-#include "solver/tests/verification/simulation.hpp"
+#include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
 namespace {

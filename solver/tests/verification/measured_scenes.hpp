@@ -1,4 +1,4 @@
-// A simulation of a shipped scene, and what is measured of it.
+// Shipped scenes to be simulated, and what their measurements are held to and kept as.
 #pragma once
 
 #include <cstdio>
