@@ -23,11 +23,11 @@ double dense_threshold(const Scene& scene);
 // grain in most of our cells, and its velocity and temperature mean nothing [-].
 double present_threshold(const Scene& scene);
 
-// Volume of a cell [m3]. In 2D all layers of cells together (one in the solver, a slice of several in the
-// reference) stand for the tank's depth, so that volumes and energies of both programs compare.
 // Which cells obstacles fill; empty where the scene has none.
 std::vector<bool> obstacle_cells(const CellFields& fields, const Scene& scene);
 
+// Volume of a cell [m3]. In 2D all layers of cells together (one in the solver, a slice of several in the
+// reference) stand for the tank's depth, so that volumes and energies of both programs compare.
 double cell_volume(const CellFields& fields, const Scene& scene);
 
 // Solid volume of each column of cells x = const [m3].
