@@ -10,7 +10,8 @@
 
 namespace granvof::closures {
 
-// What is the same in all cells. With `dilatancy` P_s^EF = max(P_s^D - P_s^K, 0) of (14) is included.
+// What is the same in all cells of a scene, which makes it once (TimeStep). With `dilatancy` P_s^EF =
+// max(P_s^D - P_s^K, 0) of (14) is included.
 struct SolidLaw {
   double rho_s = 0.0;  // [kg/m3]
   Contact contact;
@@ -94,18 +95,6 @@ inline double enduring_pressure(double f_s, const GrainsOfCell& cell, const Soli
   if (cell.viscous_stress > 0.0)
     borne += viscous_contact_pressure(f_s, law.contact.solid_fraction_max, cell.viscous_stress).value;
   return elastic_pressure(f_s, law.contact, cell.packing).value + borne;
-}
-
-// The same of the paper's collisions where the grains touch at f_s,min.
-inline PressureAndSlope solid_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                       bool dilatancy, double resting = 0.0) {
-  return solid_pressure(f_s, GrainsOfCell{theta, e, resting, c.solid_fraction_min},
-                        SolidLaw(rho_s, c, dilatancy));
-}
-inline double enduring_pressure(double f_s, double theta, double e, double rho_s, const Contact& c,
-                                bool dilatancy, double resting = 0.0) {
-  return enduring_pressure(f_s, GrainsOfCell{theta, e, resting, c.solid_fraction_min},
-                           SolidLaw(rho_s, c, dilatancy));
 }
 
 }  // namespace granvof::closures

@@ -24,11 +24,12 @@ constexpr double nothing_left = 1e-5;
 
 }  // namespace
 
-CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary)
+CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                                 const closures::SolidLaw& law)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
-      law_(scene),
+      law_(law),
       load_(scales_of(scene).pressure),
       solver_(grid.cells, grid.h),
       fraction_(scene.numerics.solid_flux),

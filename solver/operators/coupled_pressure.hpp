@@ -33,7 +33,9 @@ struct PressureReport {
 
 class CoupledPressure {
  public:
-  CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary);
+  // The law, as all else, must outlive this.
+  CoupledPressure(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                  const closures::SolidLaw& law);
 
   // In: the old state with ghosts filled, the rheology, inertia and beta [kg/m3 s] of its level; in `next`
   // the predicted u_s, u_c (old pressure gradients included) and the old p_c, p_s. Out: new u_s, u_c on their
@@ -64,7 +66,7 @@ class CoupledPressure {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
-  closures::SolidLaw law_;
+  const closures::SolidLaw& law_;
   double load_;  // scale of P_s [Pa], see scales.hpp
   linear::CoupledSolver solver_;
   SolidFractionFlux fraction_;

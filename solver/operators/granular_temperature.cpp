@@ -59,11 +59,12 @@ Field loss_to_bumps(const Grid& grid, const Boundary& boundary) {
 
 }  // namespace
 
-GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary)
+GranularTemperature::GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                                         const closures::Collisions& laws)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
-      laws_(scene),
+      laws_(laws),
       wall_loss_(loss_to_bumps(grid, boundary)),
       conductivity_(grid),
       kappa_(grid),

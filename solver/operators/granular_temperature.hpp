@@ -31,7 +31,9 @@ struct GranularLosses {
 
 class GranularTemperature {
  public:
-  GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary);
+  // The laws, as all else, must outlive this.
+  GranularTemperature(const Grid& grid, const Scene& scene, const Boundary& boundary,
+                      const closures::Collisions& laws);
 
   // Theta that the kinetic viscosity of the step is taken at [m2/s2]: the old one, but at least a small share
   // of what the strain would make in each cell by itself within dt, nothing carried; in the algebraic form
@@ -56,7 +58,7 @@ class GranularTemperature {
   const Grid& grid_;
   const Scene& scene_;
   const Boundary& boundary_;
-  closures::Collisions laws_;
+  const closures::Collisions& laws_;
   Field wall_loss_;  // bumpy_wall_loss() per height of the cells beside bumps [1/m]; empty without
   Range cells_{{0, 0, 0}, {0, 0, 0}};           // around those that hold grains before or after the step
   std::optional<linear::ScalarSolver> solver_;  // of cells_

@@ -6,7 +6,6 @@
 #include "solver/closures/drag/drag.hpp"
 #include "solver/closures/restitution.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
-#include "solver/closures/solid_pressure.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/thin_layer.hpp"
 
@@ -32,14 +31,13 @@ void Rheology::update_viscous_contacts(const Grid& grid, const Scene& scene, con
   });
 }
 
-void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boundary, const State& now,
-                      const StrainRate& strain) {
+void Rheology::update(const Grid& grid, const Scene& scene, const closures::SolidLaw& law,
+                      const Boundary& boundary, const State& now, const StrainRate& strain) {
   const bool in_part = scene.numerics.bed_surface == BedSurface::part_cells;
   if (in_part) part_cells.update(grid, scene, now.f_s, now.alpha, now.p_s);
   const Solid solid = scene.solid;
   const Contact contact = scene.contact;
   const double mu_l = scene.liquid.viscosity, mu_g = scene.gas.viscosity;
-  const closures::SolidLaw law(scene);
   update_viscous_contacts(grid, scene, boundary, now, strain);
   const double* viscous = viscous_stress.empty() ? nullptr : viscous_stress.data();
   const double *f = now.f_s.data(), *t = now.theta.data(), *a = now.alpha.data(),
@@ -96,10 +94,10 @@ void Rheology::update(const Grid& grid, const Scene& scene, const Boundary& boun
   }
 }
 
-void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                        const Field& f_s, const Field& theta) {
+void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, const closures::SolidLaw& law,
+                                        const Boundary& boundary, const Field& f_s, const Field& theta) {
   if (!scene.model.kinetic_viscosity) return;  // stays zero
-  const closures::Collisions laws(scene);
+  const closures::Collisions& laws = law.collisions;
   const double rho_s = scene.solid.density, d_s = scene.solid.diameter;
   const double *f = f_s.data(), *t = theta.data(), *e = restitution.data();
   double* mu = kinetic_viscosity.data();

@@ -1,6 +1,7 @@
 // Cell values of the solid's constitutive law at the old level, eqs (11)-(20).
 #pragma once
 
+#include "solver/closures/solid_pressure.hpp"
 #include "solver/grid/boundary.hpp"
 #include "solver/operators/bed_surface.hpp"
 #include "solver/operators/strain.hpp"
@@ -38,12 +39,12 @@ struct Rheology {
 
   // All but the kinetic viscosity, with ghosts filled but for part_cells, from a state and a strain of the
   // same level.
-  void update(const Grid& grid, const Scene& scene, const Boundary& boundary, const State& now,
-              const StrainRate& strain);
+  void update(const Grid& grid, const Scene& scene, const closures::SolidLaw& law, const Boundary& boundary,
+              const State& now, const StrainRate& strain);
 
   // The kinetic viscosity and the pressure on bumps at `theta`, with ghosts filled; e must be up to date.
-  void update_kinetic_viscosity(const Grid& grid, const Scene& scene, const Boundary& boundary,
-                                const Field& f_s, const Field& theta);
+  void update_kinetic_viscosity(const Grid& grid, const Scene& scene, const closures::SolidLaw& law,
+                                const Boundary& boundary, const Field& f_s, const Field& theta);
 
  private:
   void update_viscous_contacts(const Grid& grid, const Scene& scene, const Boundary& boundary,

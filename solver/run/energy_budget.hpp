@@ -22,6 +22,7 @@ namespace granvof {
 
 // What a step leaves behind for its account.
 struct StepTrace {
+  const closures::SolidLaw& law;
   const FaceInertia& inertia;  // of the old level
   const FaceField& beta;       // [kg/m3 s]
   const MomentumPredictor& predictor;

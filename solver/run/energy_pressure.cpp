@@ -1,6 +1,5 @@
 // The energy budget's part of the solid pressure: contacts that store, and pressures of the flow.
 #include "solver/closures/contact_pressure.hpp"
-#include "solver/closures/solid_pressure.hpp"
 #include "solver/run/energy_budget.hpp"
 
 namespace granvof {
@@ -23,8 +22,8 @@ double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const St
                *resting = trace.rheology.part_cells.resting.data(), *div = trace.strain.divergence.data();
   const Field& stress = trace.rheology.viscous_stress;
   const double* viscous = stress.empty() ? nullptr : stress.data();
-  const closures::SolidLaw law(scene_);
-  return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+  return dt * grid_.cell_volume *
+         sum_over(grid_.cells, grid_.all_cells(), [=, law = trace.law](std::ptrdiff_t c) {
            const closures::GrainsOfCell cell{theta[c], e[c], resting[c], packing[c],
                                              viscous != nullptr ? viscous[c] : 0.0};
            if (theta[c] == 0.0 && resting[c] == 0.0 && cell.viscous_stress == 0.0) return 0.0;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/closures/solid_pressure.hpp"
-
 namespace granvof {
 namespace {
 
@@ -18,10 +16,10 @@ constexpr double elastic_courant =
 
 // In which the fastest elastic wave of the solid, of speed sqrt(dP_s/df_s / rho_s), crosses half a cell [s]:
 // the fluid between the grains only slows it. Infinite where no grains touch.
-double longest_elastic_step(const Grid& grid, const Scene& scene, const State& s) {
+double longest_elastic_step(const Grid& grid, const Scene& scene, const closures::SolidLaw& law,
+                            const State& s) {
   const double *f = s.f_s.data(), *theta = s.theta.data(), *packing = s.packing.data();
   const double e = scene.solid.restitution, rho_s = scene.solid.density;
-  const closures::SolidLaw law(scene);
   const double stiffest = max_over(grid.cells, grid.all_cells(), 0.0, [=](std::ptrdiff_t c) {
     return closures::solid_pressure(f[c], {theta[c], e, 0.0, packing[c]}, law).slope;
   });
@@ -32,8 +30,8 @@ double longest_elastic_step(const Grid& grid, const Scene& scene, const State& s
 
 }  // namespace
 
-StepControl::StepControl(const Grid& grid, const Scene& scene)
-    : grid_(grid), scene_(scene), last_(first_share_of_dt_max * scene.numerics.dt_max) {}
+StepControl::StepControl(const Grid& grid, const Scene& scene, const closures::SolidLaw& law)
+    : grid_(grid), scene_(scene), law_(law), last_(first_share_of_dt_max * scene.numerics.dt_max) {}
 
 double StepControl::next(const State& s) const {
   double rate = 0.0;  // of crossing a cell [1/s]
@@ -50,7 +48,7 @@ double StepControl::next(const State& s) const {
   double dt = std::min(scene_.numerics.dt_max, growth * last_);
   if (rate > 0.0) dt = std::min(dt, scene_.numerics.cfl / rate);
   if (scene_.numerics.contact_pressure == ContactPressure::explicit_)
-    dt = std::min(dt, longest_elastic_step(grid_, scene_, s));
+    dt = std::min(dt, longest_elastic_step(grid_, scene_, law_, s));
   if (scene_.gate) {
     const double risen = scene_.tank[1] / scene_.gate->speed;
     if (s.time < 0.0) {

@@ -1,6 +1,7 @@
 // Size of the next time step.
 #pragma once
 
+#include "solver/closures/solid_pressure.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/state/state.hpp"
 
@@ -8,7 +9,8 @@ namespace granvof {
 
 class StepControl {
  public:
-  StepControl(const Grid& grid, const Scene& scene);
+  // All three must outlive this.
+  StepControl(const Grid& grid, const Scene& scene, const closures::SolidLaw& law);
 
   // Largest step allowed from state `s` [s]: convective Courant number, gate, dt_max and growth of at
   // most 1.2 over the last accepted step.
@@ -22,6 +24,7 @@ class StepControl {
  private:
   const Grid& grid_;
   const Scene& scene_;
+  const closures::SolidLaw& law_;
   double last_;
 };
 

@@ -29,7 +29,7 @@ TimeLoop::TimeLoop(const Scene& scene, const Communicator* communicator)
       boundary_(grid_),
       tank_(scene, grid_),
       step_(grid_, scene, boundary_),
-      control_(grid_, scene),
+      control_(grid_, scene, step_.solid_law()),
       now_(start_of(grid_, scene, boundary_, tank_)),
       next_(grid_),
       monitors_(grid_, scene, now_) {}

@@ -84,6 +84,7 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, Boundary& boundary)
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
+      law_(scene),
       aperture_(grid, scene),
       inertia_(grid),
       drag_(grid, scene),
@@ -91,9 +92,9 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, Boundary& boundary)
       viscosity_(grid, scene),
       predictor_(grid, scene, boundary),
       solid_momentum_(grid, scene, boundary),
-      pressure_(grid, scene, boundary),
+      pressure_(grid, scene, boundary, law_),
       interface_(grid, scene, boundary),
-      temperature_(grid, scene, boundary),
+      temperature_(grid, scene, boundary, law_.collisions),
       strain_(grid),
       whole_columns_(grid.has_whole_columns()),
       continuity_tree_(grid),
@@ -122,12 +123,12 @@ void TimeStep::close(Attempt& step) {
   const bool agitated = closures::agitates(scene_.model.granular_temperature);
   if (agitated || scene_.model.viscous_contact_pressure)
     strain_.update(grid_, boundary_.walls(), now.u_strain);
-  rheology_.update(grid_, scene_, boundary_, now, strain_);
+  rheology_.update(grid_, scene_, law_, boundary_, now, strain_);
   drag_.update(boundary_, now, inertia_, rheology_);
   viscosity_.update(boundary_, now);
   if (!agitated) return;
   temperature_.predict(step.dt, now, drag_.beta_of_cells(), rheology_.restitution, strain_, stirred_);
-  rheology_.update_kinetic_viscosity(grid_, scene_, boundary_, now.f_s, stirred_);
+  rheology_.update_kinetic_viscosity(grid_, scene_, law_, boundary_, now.f_s, stirred_);
 }
 
 void TimeStep::predict(Attempt& step) {
@@ -240,7 +241,7 @@ void TimeStep::account(Attempt& step) {
   if (implicit) step.viscous_power = viscous.walls + viscous.sides - viscous.dissipation;
   next.energy.add(budget_.of_step(
       step.dt, step.now, next,
-      {inertia_, drag_.beta(), predictor_, flux_s_, flux_c_, flux_c_solved_, rheology_, strain_,
+      {law_, inertia_, drag_.beta(), predictor_, flux_s_, flux_c_, flux_c_solved_, rheology_, strain_,
        step.viscous_power, viscous, step.stress, step.granular, step.elastic, *step.passed}));
 }
 

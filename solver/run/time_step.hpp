@@ -61,6 +61,8 @@ class TimeStep {
   static std::span<const Stage> stages();
 
   const Stopwatch& cost() const { return cost_; }
+  // Of the scene, made once: whoever asks for P_s(f_s) asks it.
+  const closures::SolidLaw& solid_law() const { return law_; }
 
  private:
   void move_gate(double time);
@@ -81,6 +83,7 @@ class TimeStep {
   const Grid& grid_;
   const Scene& scene_;
   Boundary& boundary_;
+  const closures::SolidLaw law_;
   Aperture aperture_;
   FaceInertia inertia_;
   InterphaseDrag drag_;

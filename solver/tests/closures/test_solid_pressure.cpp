@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/closures/solid_pressure.hpp"
 #include "solver/tests/closures/derivative.hpp"
+#include "solver/tests/solid_pressure_of_paper.hpp"
 
 namespace granvof::closures {
 namespace {
+
+using test::enduring_pressure;
+using test::solid_pressure;
 
 const Contact paper;
 constexpr double theta = 1e-4;  // [m2/s2]

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/point_on_law.hpp"
-#include "solver/closures/solid_pressure.hpp"
 #include "solver/operators/coupled_pressure.hpp"
 #include "solver/operators/interphase_drag.hpp"
 #include "solver/scene/scales.hpp"
 #include "solver/tests/operators/tank.hpp"
+#include "solver/tests/solid_pressure_of_paper.hpp"
 
 namespace granvof {
 namespace {
@@ -41,7 +41,8 @@ struct Step {
       s.each(s.grid.inner_faces(d), [&](int, int, int, std::ptrdiff_t c) {
         if (inertia.f_s[d][c] < least_solid_fraction) u_s[d][c] = u_c[d][c];
       });
-    CoupledPressure pressure(s.grid, s.scene, s.boundary);
+    const closures::SolidLaw of_scene(s.scene);
+    CoupledPressure pressure(s.grid, s.scene, s.boundary, of_scene);
     const State now = state;
     report = pressure.solve(dt, now, rheology, inertia, beta, aperture, state, flux_s, flux_c);
   }
@@ -52,8 +53,8 @@ struct Step {
   }
   double solid_after(double dt, std::ptrdiff_t c) const { return f_s[c] - dt * s.divergence(flux_s, c); }
   closures::PressureAndSlope law(double f, std::ptrdiff_t c) const {
-    return closures::solid_pressure(std::fmax(f, 0.0), theta[c], rheology.restitution[c],
-                                    s.scene.solid.density, s.scene.contact, s.scene.model.dilatancy_pressure);
+    return test::solid_pressure(std::fmax(f, 0.0), theta[c], rheology.restitution[c], s.scene.solid.density,
+                                s.scene.contact, s.scene.model.dilatancy_pressure);
   }
   // Continuity and the law in every cell, recomputed from the fluxes that came out.
   void expect_closed(double dt) const {
@@ -260,7 +261,7 @@ TEST(PointOnLaw, AgreesWithBisection) {
   const Contact contact;
   for (int i = 0; i < 3000; ++i) {
     const double theta = s.uniform(0.0, 1.0) < 0.5 ? 0.0 : std::pow(10.0, s.uniform(-8.0, 0.0));
-    const auto law = [&](double f) { return closures::solid_pressure(f, theta, 0.8, 2500.0, contact, true); };
+    const auto law = [&](double f) { return test::solid_pressure(f, theta, 0.8, 2500.0, contact, true); };
     const double f_line = s.uniform(-0.2, 1.0), compliance = std::pow(10.0, s.uniform(-12.0, -2.0));
     const double p_line = (s.uniform(0.0, 1.0) < 0.3 ? -1.0 : 1.0) * std::pow(10.0, s.uniform(-2.0, 6.0));
     const auto off = [&](double f) { return f - f_line + compliance * (law(f).value - p_line); };

@@ -34,7 +34,7 @@ TEST(CutTank, TakesTheStepOfItsFastestProcess) {
       t.each_cell([&](int i, int j, int, std::ptrdiff_t c) {
         state.u_c[0][c] = t.grid.cells.first[0] + i == fast && j == 2 ? 1e4 : 1.0;
       });
-      return StepControl(t.grid, t.scene).next(state);
+      return StepControl(t.grid, t.scene, closures::SolidLaw(t.scene)).next(state);
     };
     const double expected = next(Tank(scene));
     for (const int processes : {2, 3})

@@ -17,7 +17,8 @@ Field production_of(const Tank& s, double dt, const State& now, const Field& bet
                     const GranularTemperature& temperature, Rheology& rheology) {
   Field stirred(s.grid), production(s.grid);
   temperature.predict(dt, now, beta, rheology.restitution, strain, stirred);
-  rheology.update_kinetic_viscosity(s.grid, s.scene, s.boundary, now.f_s, stirred);
+  rheology.update_kinetic_viscosity(s.grid, s.scene, closures::SolidLaw(s.scene), s.boundary, now.f_s,
+                                    stirred);
   for_each(s.grid.cells, [&](std::ptrdiff_t c) {
     const double div = strain.divergence[c];
     production[c] = rheology.kinetic_viscosity[c] * (2.0 * strain.squared[c] + div * div);
@@ -35,7 +36,8 @@ struct Gas {
         flux(s.grid),
         rheology(s.grid),
         strain(s.grid),
-        temperature(s.grid, s.scene, s.boundary) {
+        laws(s.scene),
+        temperature(s.grid, s.scene, s.boundary, laws) {
     theta.fill(theta_value);
   }
   static Scene scene(double e0) {
@@ -52,7 +54,7 @@ struct Gas {
   }
   // f_s stays as it is: what the local balance does to Theta alone.
   void advance(double dt) {
-    rheology.update(s.grid, s.scene, s.boundary, now, strain);
+    rheology.update(s.grid, s.scene, closures::SolidLaw(s.scene), s.boundary, now, strain);
     const Field production = production_of(s, dt, now, beta, strain, temperature, rheology);
     temperature.advance(dt, now, flux, beta, rheology, strain, production, next);
     std::swap(theta, next.theta);
@@ -69,6 +71,7 @@ struct Gas {
   FaceField flux;
   Rheology rheology;
   StrainRate strain;
+  closures::Collisions laws;
   GranularTemperature temperature;
 };
 
@@ -272,12 +275,13 @@ TEST(GranularTemperature, SurvivesRandomStates) {
       s.boundary.fill_scalar(f, 0.0);
       s.boundary.fill_scalar(theta);
       Rheology rheology(s.grid);
-      rheology.update(s.grid, s.scene, s.boundary, now, StrainRate(s.grid));
+      rheology.update(s.grid, s.scene, closures::SolidLaw(s.scene), s.boundary, now, StrainRate(s.grid));
       FaceField u = s.random_faces(-30.0, 30.0);
       s.boundary.fill_velocity(u, Phase::solid);
       StrainRate strain(s.grid);
       strain.update(s.grid, s.boundary.walls(), u);
-      GranularTemperature temperature(s.grid, s.scene, s.boundary);
+      const closures::Collisions laws(s.scene);
+      GranularTemperature temperature(s.grid, s.scene, s.boundary, laws);
       const Field beta = s.random_cells(0.0, 1e5);
       const Field production = production_of(s, 1e-3, now, beta, strain, temperature, rheology);
       State next = now;

@@ -33,7 +33,7 @@ std::array<double, rows> free_sides(const Scene& scene, const std::array<double,
   state.theta.fill(theta);
   state.p_s.fill(p_s);
   Rheology rheology(s.grid);
-  rheology.update(s.grid, s.scene, s.boundary, state, StrainRate(s.grid));
+  rheology.update(s.grid, s.scene, closures::SolidLaw(s.scene), s.boundary, state, StrainRate(s.grid));
   std::array<double, rows> side{};
   for (int j = 0; j < rows; ++j)
     side[static_cast<std::size_t>(j)] = rheology.free_side[s.grid.cells.index(2, j, 0)];
@@ -75,7 +75,7 @@ TEST(Rheology, RestitutionIsThatOfTheCellsFluid) {
   state.theta.fill(theta);
   s.each_cell([&](int, int j, int, std::ptrdiff_t c) { state.alpha[c] = j < rows / 2 ? 1.0 : 0.0; });
   Rheology rheology(s.grid);
-  rheology.update(s.grid, s.scene, s.boundary, state, StrainRate(s.grid));
+  rheology.update(s.grid, s.scene, closures::SolidLaw(s.scene), s.boundary, state, StrainRate(s.grid));
   const auto expected = [&](const Fluid& fluid) {
     return closures::effective_restitution(s.scene.solid.restitution, theta, 2500.0, s.scene.solid.diameter,
                                            fluid.viscosity);
@@ -89,7 +89,8 @@ TEST(Rheology, RestitutionIsThatOfTheCellsFluid) {
 TEST(Rheology, PressureBeyondAWallIsThatInside) {
   const Tank s(box_scene(2, {4, rows, 1}, {0.04, 0.08, 1.0}));
   Rheology rheology(s.grid);
-  rheology.update(s.grid, s.scene, s.boundary, s.uniform_state(0.6), StrainRate(s.grid));
+  rheology.update(s.grid, s.scene, closures::SolidLaw(s.scene), s.boundary, s.uniform_state(0.6),
+                  StrainRate(s.grid));
   const double inside = rheology.enduring_pressure[s.grid.cells.index(0, 0, 0)];
   EXPECT_GT(inside, 0.0);
   EXPECT_EQ(rheology.enduring_pressure[s.grid.cells.index(-1, 0, 0)], inside);

@@ -17,7 +17,8 @@ struct Control {
         grid(scene),
         boundary(grid),
         state(initial_state(grid, scene, boundary)),
-        control(grid, scene) {
+        law(scene),
+        control(grid, scene, law) {
     state.time = 1.0;  // the gate is up
     control.accepted(scene.numerics.dt_max);
   }
@@ -26,6 +27,7 @@ struct Control {
   Grid grid;
   Boundary boundary;
   State state;
+  closures::SolidLaw law;
   StepControl control;
 };
 
@@ -38,7 +40,7 @@ TEST(StepControl, LongestStepAndGrowth) {
   c.control.restore(2e-4);
   EXPECT_DOUBLE_EQ(c.control.next(c.state), 2.4e-4);
   EXPECT_DOUBLE_EQ(c.control.after_refusal(1e-3), 4e-4);
-  const StepControl fresh(c.grid, c.scene);
+  const StepControl fresh(c.grid, c.scene, c.law);
   EXPECT_LT(fresh.next(c.state), 0.5 * c.scene.numerics.dt_max);  // a run begins carefully
 }
 

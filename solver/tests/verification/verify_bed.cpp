@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "solver/closures/contact_friction.hpp"
-#include "solver/closures/solid_pressure.hpp"
 #include "solver/output/extract_front.hpp"
+#include "solver/tests/solid_pressure_of_paper.hpp"
 #include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {
@@ -111,7 +111,7 @@ TEST(BedAtRest, StressCarriesTheSubmergedWeight) {
     const double own = now.f_s[c] * 1500.0 * run.scene.gravity * run.grid.h[1];
     weight += 0.5 * own;
     const double e = 0.0;  // of (18) at Theta = 0
-    const double p = closures::enduring_pressure(old.f_s[c], old.theta[c], e, 2500.0, contact, true);
+    const double p = enduring_pressure(old.f_s[c], old.theta[c], e, 2500.0, contact, true);
     const double was = (old.u_strain[1][c + up] - old.u_strain[1][c]) / run.grid.h[1];
     const double is = (now.u_strain[1][c + up] - now.u_strain[1][c]) / run.grid.h[1];
     const double mu = closures::friction_viscosity(p, run.scene.solid.friction, contact.regularisation,
