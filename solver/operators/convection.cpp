@@ -164,6 +164,7 @@ void bound(const Grid& grid, const FaceField& u, int d, const Range& faces, doub
 
 }  // namespace
 
+// What these give back is upwind_momentum of the ledger.
 double convective_acceleration(const Field& mass, const Grid& grid, const InnerWalls& walls,
                                const FaceField& u, int d, const Range& faces, bool limited,
                                Field& acceleration) {

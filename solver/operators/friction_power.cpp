@@ -57,6 +57,7 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
         return m[c] != 0.0 ? velocity[c] * (own[c] * x[c] - y[c]) : 0.0;
       });
     };
+    // numerical_stress of the ledger is what the two differ by
     power.on_grains += work_on(end);
     power.solved_for += work_on(x);
     total += sum_over(grid_.cells, box_, [=](std::ptrdiff_t c) {

@@ -193,7 +193,8 @@ void GranularTemperature::predict(double dt, const State& now, const Field& beta
 // The local balance with its production known: one positive root w, so Theta stays positive. Pressure work is
 // that of the old Theta, which is what the momentum felt; where the grains expand by more than they hold, the
 // rest of it came from nowhere (`spared` of GranularLosses). The algebraic form drops the time
-// term, and takes the work of the new Theta where it is a loss.
+// term, and takes the work of the new Theta where it is a loss. `excess` is theta_bounds of the ledger, and
+// with `spared` and what runs out numerical_granular.
 GranularLosses GranularTemperature::balance(double dt, const State& now, const Field& beta,
                                             const Field& restitution, const StrainRate& strain,
                                             const Field& production, State& next) {

@@ -91,6 +91,8 @@ void Faces::add_solid(int d) {
   const auto [step, before, after, predicted, momentum, slip, spread, pressed] = sums.values;
   const double volume = grid_.cell_volume, rho_s = scene_.solid.density;
   const double kinetic = 0.25 * rho_s * after, gravity = g_[d] * dt_ * momentum;
+  // Of the ledger: step is numerical_time, slip drag, solid_transport numerical_solid; convected and moved
+  // are numerical_momentum.
   work_.step += 0.5 * volume * step;
   work_.kinetic += volume * kinetic;
   work_.moved += volume * (kinetic - 0.5 * before);
@@ -135,6 +137,7 @@ void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
   });
   const auto [step, before, after, predicted, convected, momentum, lifted, pressed] = sums.values;
   const double volume = moved.weight * grid_.cell_volume, gravity = g_[d] * dt_ * momentum;
+  // Further: fluid_transport is numerical_fluid, viscous what numerical_viscosity is taken from.
   work_.step += 0.5 * volume * step;
   work_.kinetic += 0.25 * volume * after;
   work_.moved += volume * (0.25 * after - 0.5 * before);
@@ -167,7 +170,7 @@ void Faces::add_potential_out(int d, bool upper) {
   }
 }
 
-// What passes a side takes its energy along, and the pressure on the side works on it.
+// What passes a side takes its energy along, and the pressure on the side works on it: outflow of the ledger.
 void Faces::add_side(int d, bool upper) {
   add_potential_out(d, upper);
   const SideRule& side = grid_.tank_side(d, upper);

@@ -15,6 +15,7 @@ const Field& EnergyBudget::fraction_of_law(const State& now, const State& next) 
   return scene_.numerics.contact_pressure == ContactPressure::implicit ? next.f_s : now.f_s;
 }
 
+// What Theta does not pay of it is dilatancy of the ledger.
 double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const State& next,
                                            const StepTrace& trace) const {
   const double *f = fraction_of_law(now, next).data(), *theta = now.theta.data(),
@@ -33,7 +34,8 @@ double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const St
          });
 }
 
-// The step's own: of the packing and, where it is explicit, of the f_s that it took the law at.
+// The step's own: of the packing and, where it is explicit, of the f_s that it took the law at. What the
+// contacts do not store of it is numerical_elastic of the ledger.
 double EnergyBudget::work_of_contacts(double dt, const State& now, const State& next,
                                       const StepTrace& trace) const {
   const double *f = fraction_of_law(now, next).data(), *packing = now.packing.data(),

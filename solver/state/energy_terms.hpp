@@ -110,7 +110,7 @@ inline constexpr std::array energy_terms{
     EnergyTerm{"gained_shear_dilatancy", &EnergyTerms::shear_dilatancy, parts::packing, EnergyKind::outside,
                -1, false, "shear dilatancy",
                "given to the contacts so far by shear that dilates the bed: what friction takes by tan(psi)",
-               "solver/run/time_step.cpp"},
+               "solver/run/energy_budget.cpp"},
     EnergyTerm{"lost_numerical_time", &EnergyTerms::numerical_time, parts::momentum, EnergyKind::numerical, 1,
                true, "numerics: implicit steps",
                "lost to implicit time steps so far: 1/2 m |u^{n+1} - u^n|^2", "solver/run/energy_faces.cpp"},

@@ -1,5 +1,6 @@
 // The one table of the energy ledger: what is documented, and what a reader of a run finds, is what it says.
 #include <filesystem>
+#include <regex>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -38,9 +39,21 @@ TEST(Ledger, IsDocumentedTermByTerm) {
       << table();
 }
 
+// The member of EnergyTerms that a term of the table is.
+std::string member_of(const EnergyTerm& term) {
+  const std::string text = test::text_of(root / "solver/state/energy_terms.hpp");
+  std::smatch found;
+  const std::regex row("\"" + std::string(term.name) + "\", &EnergyTerms::(\\w+)");
+  return std::regex_search(text, found, row) ? found[1].str() : "";
+}
+
 TEST(Ledger, NamesTheFileThatMeasuresATerm) {
-  for (const EnergyTerm& term : energy_terms)
-    EXPECT_TRUE(std::filesystem::exists(root / term.measured_in)) << term.name << ": " << term.measured_in;
+  for (const EnergyTerm& term : energy_terms) {
+    const std::string member = member_of(term);
+    ASSERT_NE(member, "") << term.name;
+    EXPECT_TRUE(std::regex_search(test::text_of(root / term.measured_in), std::regex("\\b" + member + "\\b")))
+        << term.measured_in << " is said to measure " << term.name << " and does not speak of " << member;
+  }
 }
 
 TEST(Ledger, StandsInTheRecordOfARun) {
