@@ -116,17 +116,6 @@ TEST_F(RunCase, LimitedFluxesFinishToo) {
   EXPECT_LT(record["liquid_volume_error"].get<double>(), 1e-12);
 }
 
-TEST_F(RunCase, EveryModelSwitchRuns) {
-  for (const char* change :
-       {"model.drag=false", "model.les=false", "model.granular_temperature=algebraic",
-        "model.granular_temperature=off", "model.pressure_work=false", "model.dilatancy_pressure=false",
-        "model.kinetic_viscosity=false", "model.contact_friction=false", "model.colour=false",
-        "numerics.interface_scheme=upwind"}) {
-    EXPECT_EQ(run_into(path(change), column_scene({change, "time.end=0.02"})), 0) << change;
-    EXPECT_LT(record_of(path(change))["solid_volume_error"].get<double>(), 1e-12) << change;
-  }
-}
-
 TEST_F(RunCase, AHeldColumnStartsItsOutputAtItsRelease) {
   EXPECT_EQ(run_into(path("run"), column_scene({"time.hold=0.02", "time.end=0.02"})), 0);
   const auto times = read_series(path("run") / "series.csv").column("time");
