@@ -24,6 +24,10 @@ class ListError(Exception):
     """What is wrong with the list, in one line."""
 
 
+def is_compiled(file):
+    return file.endswith((".cpp", ".hpp"))
+
+
 @dataclass(frozen=True)
 class Mutant:
     file: str  # from the root of the project
@@ -48,7 +52,7 @@ class Mutant:
 
     @property
     def compiled(self):
-        return self.file.endswith((".cpp", ".hpp"))
+        return is_compiled(self.file)
 
 
 def read(directory):

@@ -5,16 +5,21 @@ import subprocess
 from collections import Counter
 
 from granvof_files import json_of, write_json
+from mutation import listed
 
 COLUMNS = {"unit": "unit tests", "ladder": "verification ladder", "rows": "rows of make verify"}
 LONGEST_LIST = 100  # survivors in the report
 
 
 def read(path):
-    """{number of a fault: entry}; nothing where there is no such file."""
+    """{number of a fault: entry}; nothing where there is no such file. No row reaches a fault of Python, whatever an older call noted."""
     if not path.exists():
         return {}
-    return {entry["number"]: entry for entry in json_of(path)["mutants"]}
+    entries = {entry["number"]: entry for entry in json_of(path)["mutants"]}
+    for entry in entries.values():
+        if "rows" in entry and not listed.is_compiled(entry["file"]):
+            entry["rows"] |= {"verdict": "not reached", "by": ""}
+    return entries
 
 
 def write(path, entries):
@@ -23,10 +28,6 @@ def write(path, entries):
 
 def commit_of(root):
     return subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=root, capture_output=True, text=True).stdout.strip()
-
-
-def tried(entry, by=None):
-    return any(key in entry for key in ([by] if by else COLUMNS))
 
 
 def noticed(entry, by=None):
@@ -38,9 +39,18 @@ def survived(entry):
     return "unit" in entry and ("ladder" in entry) and not noticed(entry)
 
 
-def share(entries, by=None):
-    known = [entry for entry in entries if tried(entry, by)]
+def answered(entries, by):
+    """Those that were tried against these. Rows that do not pass the place were not tried: they are a part of all that there are."""
+    return [entry for entry in entries if by in entry and (by != "rows" or entry[by]["verdict"] != "not reached")]
+
+
+def share(entries, by):
+    known = answered(entries, by)
     return f"{sum(noticed(entry, by) for entry in known)} of {len(known)}"
+
+
+def per_cent(part, of, digits=0):
+    return f" ({100 * part / of:.{digits}f} %)" if of else ""
 
 
 def state(entry):
@@ -52,20 +62,21 @@ def state(entry):
 
 
 def section(mutants, results, commit):
-    """`mutants`: the list as it is now; results of faults that are no longer in it are left out."""
+    """`mutants`: the list as it is now; results of faults that are no longer in it so are left out, and counted."""
     entries = [{**results[mutant.number], "why": mutant.why} for mutant in mutants if mutant.number in results]
     by_folder = {}
     for entry in entries:
         by_folder.setdefault(folder_of(entry), []).append(entry)
     states = [state(entry) for entry in entries]
     done, nobody, unseen = (states.count(kind) for kind in ("noticed", "survived", "cannot be noticed"))
-    of = len(entries) - unseen
-    text = [f"{len(mutants)} small faults (ci/mutants) are put into the code one at a time; {len(entries)} of them have been tried: "
-            f"{done} were noticed" + (f" ({100 * done / of:.1f} %)" if of else "")
-            + f", {nobody} by nobody, {of - done - nobody} are not yet tried against all, {unseen} cannot be noticed.",
+    by_rows = answered(entries, "rows")
+    text = [f"{len(mutants)} small faults (ci/mutants) are put into the code one at a time; {len(entries)} of them have been tried, "
+            f"{len(mutants) - len(entries)} have no result{of_former_faults(mutants, results)}: "
+            f"{done} were noticed{per_cent(done, len(entries) - unseen, 1)}, {nobody} by nobody, and {unanswered(entries)}, "
+            f"{unseen} cannot be noticed.",
             "Each is tried against the unit tests, what survives these against the verification ladder; apart from that, "
             f"a share against the rows of make verify alone, on the runs that cost little: {share(entries, 'rows')} noticed"
-            f"{out_of_reach(entries)}. "
+            f"{per_cent(sum(noticed(entry, 'rows') for entry in by_rows), len(by_rows))}{out_of_reach(entries)}. "
             "Where a fault was noticed, those that come after it in the order were not asked." + of_other_commits(entries, commit)]
     columns = ["folder", "faults", *COLUMNS.values(), "noticed", "survived", "cannot be noticed"]
     rows = []
@@ -84,6 +95,21 @@ def section(mutants, results, commit):
         tables.append({"caption": "Noticed by whom", "columns": ["file", "fault", "change", *COLUMNS.values()], "rows": found})
     return {"title": "Faults that would be noticed", "text": text, "figures": [], "tables": tables, "commit": commit,
             "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def of_former_faults(mutants, results):
+    """How many results are of a fault whose text has changed since, or that was dropped."""
+    former = len(results.keys() - {mutant.number for mutant in mutants})
+    return f" ({former} results are of faults that are no longer in the list so)" if former else ""
+
+
+def unanswered(entries):
+    """How many were noticed by nobody that was asked, while somebody was not asked; and who."""
+    left = [entry for entry in entries if state(entry) == "not yet tried against all"]
+    no_ladder = sum("unit" in entry for entry in left)
+    parts = [f"{no_ladder} survived the unit tests and the ladder was not asked"] if no_ladder else []
+    parts += [f"{len(left) - no_ladder} were noticed by no row and no unit test was asked"] if len(left) > no_ladder else []
+    return f"{len(left)} are unanswered" + (f" ({', '.join(parts)})" if parts else "")
 
 
 def out_of_reach(entries):

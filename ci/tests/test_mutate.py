@@ -127,7 +127,8 @@ def test_the_score_counts_what_was_tried():
     results = {found["number"]: found for _, found in known[:4]}
     shown = told.section(mutants, results, "c")
     assert "5 small faults" in shown["text"][0]
-    assert "4 of them have been tried: 2 were noticed (50.0 %), 1 by nobody, 1 are not yet tried against all" in shown["text"][0]
+    assert ("4 of them have been tried, 1 have no result: 2 were noticed (50.0 %), 1 by nobody, and 1 are unanswered "
+            "(1 survived the unit tests and the ladder was not asked), 0 cannot be noticed.") in shown["text"][0]
     assert shown["tables"][0]["rows"][0] == ["solver/run", 4, "1 of 4", "1 of 2", "0 of 1", 2, 1, 0]
     assert [row[1] for row in shown["tables"][1]["rows"]] == ["missed", "open"]
     assert [row[3:] for row in shown["tables"][2]["rows"]] == [["T.t", "–", "survived"], ["survived", "T.t", "–"]]
@@ -141,14 +142,36 @@ def test_rows_say_where_they_do_not_pass():
     found["file"] = "compare/lay/lay.py"
     results = {one["number"]: one for _, one in known} | {mutant.number: found}
     said = told.section([one for one, _ in known] + [mutant], results, "c")["text"][1]
-    assert "1 of 3 noticed; 2 more stand where no row of these runs passes (none passes compare/lay)." in said
+    assert "1 of 1 noticed (100 %); 2 more stand where no row of these runs passes (none passes compare/lay)." in said
+    assert told.section([known[1][0]], results, "c")["tables"][0]["rows"][0][4] == "0 of 0"  # in the table as in the sentence
+
+
+def test_rows_never_reach_a_fault_of_python(tmp_path):
+    mutant, found = entry("drawn", rows="survived")
+    told.write(tmp_path / "results.json", [{**found, "file": "compare/report/results.py"}, entry("kept", rows="survived")[1]])
+    verdicts = {one["name"]: one["rows"]["verdict"] for one in told.read(tmp_path / "results.json").values()}
+    assert verdicts == {"drawn": "not reached", "kept": "survived"}
+
+
+def test_what_was_not_asked_is_no_answer():
+    known = [entry("a", unit="survived"), entry("b", rows="survived"), entry("c", rows="not reached")]
+    said = told.section([mutant for mutant, _ in known], {found["number"]: found for _, found in known}, "c")["text"][0]
+    assert ("0 by nobody, and 3 are unanswered (1 survived the unit tests and the ladder was not asked, "
+            "2 were noticed by no row and no unit test was asked)") in said
+
+
+def test_results_of_faults_that_changed_are_counted():
+    known = [entry("now", unit="noticed"), entry("before", unit="noticed")]
+    results = {found["number"]: found for _, found in known}
+    said = told.section([known[0][0], listed.Mutant("solver/run/a.cpp", "before", "before", "c")], results, "c")["text"][0]
+    assert "1 of them have been tried, 1 have no result (1 results are of faults that are no longer in the list so)" in said
 
 
 def test_a_reason_takes_a_fault_out_of_the_score():
     mutant, found = entry("equal", unit="survived", ladder="survived")
     excused = listed.Mutant(mutant.file, mutant.name, mutant.was, mutant.now, why="the same in other words")
     shown = told.section([excused], {excused.number: found}, "c")
-    assert "1 of them have been tried: 0 were noticed, 0 by nobody, 0 are not yet tried against all, 1 cannot" in shown["text"][0]
+    assert "1 of them have been tried, 0 have no result: 0 were noticed, 0 by nobody, and 0 are unanswered, 1 cannot" in shown["text"][0]
     assert shown["tables"][1]["rows"][0][3] == "the same in other words"
 
 
