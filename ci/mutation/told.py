@@ -100,7 +100,7 @@ def section(mutants, results, commit):
 def of_former_faults(mutants, results):
     """How many results are of a fault whose text has changed since, or that was dropped."""
     former = len(results.keys() - {mutant.number for mutant in mutants})
-    return f" ({former} results are of faults that are no longer in the list so)" if former else ""
+    return f" ({former} results are of faults whose text has changed since)" if former else ""
 
 
 def unanswered(entries):

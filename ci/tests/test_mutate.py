@@ -164,7 +164,7 @@ def test_results_of_faults_that_changed_are_counted():
     known = [entry("now", unit="noticed"), entry("before", unit="noticed")]
     results = {found["number"]: found for _, found in known}
     said = told.section([known[0][0], listed.Mutant("solver/run/a.cpp", "before", "before", "c")], results, "c")["text"][0]
-    assert "1 of them have been tried, 1 have no result (1 results are of faults that are no longer in the list so)" in said
+    assert "1 of them have been tried, 1 have no result (1 results are of faults whose text has changed since)" in said
 
 
 def test_a_reason_takes_a_fault_out_of_the_score():
