@@ -18,7 +18,7 @@ sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 from complaint import complain, ended, given_path  # noqa: E402
 from granvof_files import json_of, required, write_json  # noqa: E402
-from report import style  # noqa: E402
+from report import style, versions  # noqa: E402
 from report.results import Damaged, read_json  # noqa: E402
 from report.style import plt  # noqa: E402
 
@@ -180,12 +180,23 @@ def draw_all(content, directory):
     return [name for name in names if name]
 
 
-def caption(name):
-    return (f"{name.removeprefix('error-cost-')}: error against cost; points are grids, circles the Pareto front; grey: inside the "
+def caption(name, made=""):
+    """`made`: the version, where it is another than the page's."""
+    return (f"{name.removeprefix('error-cost-')}: error against cost{made}; points are grids, circles the Pareto front; grey: inside the "
             "reference's own uncertainty (what lies below a quarter of it is drawn there).")
 
 
-def ablation_table(study):
+def versions_of(charts):
+    return sorted({point["version"] for chart in charts for point in chart["points"] if point["version"]})
+
+
+def older(made, now):
+    """", by version 0.1.0, of an older minor version: not comparable", or ""."""
+    found = [f"{version}{versions.remark(version, now)}" for version in made if versions.remark(version, now)]
+    return f", by version {', '.join(found)}" if found else ""
+
+
+def ablation_table(study, now=None):
     """Change of each metric without a part, for the page; what is beyond its tolerance carries a star."""
     def cell(effect, full):
         value = effect["value"] if full else effect["change"]
@@ -198,30 +209,30 @@ def ablation_table(study):
         rows.append([row["part"], *cells, row["core_seconds"]])
     setting = " ".join([study["scene"], *study["set"]])
     return {"caption": f"{setting}: each part of the model removed or changed in turn, change of each metric against the full model; "
-                       f"* beyond its tolerance (granvof {study['version']}, case {study['case_hash'][:8]}, {study['host']})",
+                       f"* beyond its tolerance (granvof {study['version']}{versions.remark(study['version'], now)}, case {study['case_hash'][:8]}, {study['host']})",
             "columns": ["part"] + [metric["metric"] for metric in study["metrics"]] + ["core-s"], "rows": rows}
 
 
-def advice_table(study):
+def advice_table(study, now=None):
     """The evidence of an advice: every configuration that was tried, in order."""
     rows = [[step["configuration"], "-" if step["error"] is None else f"{100 * step['error']:.2g} %", step["core_s_per_s"],
              step["remark"]] for step in study["steps"]]
-    return {"caption": f"advice for {study['scene']} ({study['version']}): " + "; ".join(study["summary"]),
+    return {"caption": f"advice for {study['scene']} ({study['version']}{versions.remark(study['version'], now)}): " + "; ".join(study["summary"]),
             "columns": ["configuration", "error", "core-s per s", "remark"], "rows": rows}
 
 
-def section(content, names, ablated, advised=()):
-    """charts.json, as sections.py reads it."""
+def section(content, names, ablated, advised=(), now=None):
+    """charts.json, as sections.py reads it, for a page of the minor version `now`."""
     text = ["Errors are relative; lower left is better. Methods: " +
             "; ".join(method["name"] + (f" ({method['about']})" if method["about"] else "") for method in content["methods"]) + "."]
     for chart in content["charts"]:
         text += chart["lines"]
         if chart["left_out"]:
             text.append(f"{chart['case']}, left out: {'; '.join(chart['left_out'])}.")
-    versions = sorted({point["version"] for chart in content["charts"] for point in chart["points"] if point["version"]})
-    return {"title": "Accuracy against cost", "text": text, "commit": ", ".join(versions), "date": content["date"],
-            "figures": [{"file": f"{name}.png", "caption": caption(name)} for name in names],
-            "tables": [advice_table(study) for study in advised] + [ablation_table(study) for study in ablated]}
+    made = {f"error-cost-{chart['case']}": older(versions_of([chart]), now) for chart in content["charts"]}
+    return {"title": "Accuracy against cost", "text": text, "commit": ", ".join(versions_of(content["charts"])), "date": content["date"],
+            "figures": [{"file": f"{name}.png", "caption": caption(name, made[name])} for name in names],
+            "tables": [advice_table(study, now) for study in advised] + [ablation_table(study, now) for study in ablated]}
 
 
 def main(arguments):
@@ -261,33 +272,34 @@ def write(content, options):
     return 0
 
 
-def make_section(directory, content, ablated, advised):
-    """Pictures and charts.json into `directory`; names of the pictures."""
+def make_section(directory, content, ablated, advised, now=None):
+    """Pictures and charts.json into `directory`; names of the pictures. Without `now` the newest of the charts is the page's."""
     names = draw_all(content, directory)
-    write_json(directory / "charts.json", section(content, names, ablations(ablated), advices(advised)))
+    now = now or versions.newest(versions_of(content["charts"]))
+    write_json(directory / "charts.json", section(content, names, ablations(ablated), advices(advised), now))
     return names
 
 
-def from_kept(kept, directory):
+def from_kept(kept, directory, now=None):
     """Draws the charts of an earlier version that `kept` holds, and says so in their section; False if it holds none."""
     content = load(kept / "charts")
     if content is None:
         return False
-    make_section(directory, content, kept / "ablate", kept / "advise")
+    make_section(directory, content, kept / "ablate", kept / "advise", now)
     path = directory / "charts.json"
     shown = json_of(path)
     shown["title"] += " (kept results)"
-    shown["text"].insert(0, f"Not run here: results kept in the repository, {made(content)}. `make charts` runs them anew.")
+    shown["text"].insert(0, f"Not run here: results kept in the repository, {made(content, now)}. `make charts` runs them anew.")
     write_json(path, shown)
     return True
 
 
-def made(content):
+def made(content, now=None):
     """"s1, canary: VERSION, DATE; s2: ..."."""
     cases = {}
     for chart in content["charts"]:
-        versions = ", ".join(sorted({point["version"] for point in chart["points"] if point["version"]}))
-        cases.setdefault(f"{versions}, {chart.get('date', content['date'])[:10]}", []).append(chart["case"])
+        by = ", ".join(version + versions.remark(version, now) for version in versions_of([chart]))
+        cases.setdefault(f"{by}, {chart.get('date', content['date'])[:10]}", []).append(chart["case"])
     return "; ".join(f"{', '.join(of)}: {how}" for how, of in cases.items())
 
 

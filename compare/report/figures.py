@@ -88,7 +88,7 @@ def draw_all(results, directory, kept=None):
     names = []
     for plot in PLOTS:
         names += results.shown(lambda: plot(results, directory)) or []
-    names += results.shown(lambda: stability.map_plot(stability.load(results.directory, kept), directory)) or []
+    names += results.shown(lambda: stability.map_plot(stability.load(results.directory, kept), directory, results.version)) or []
     judged = on_its_own(results)
     pictured = [run for run in results.curves if run in judged]
     for run in pictured:

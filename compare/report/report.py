@@ -31,12 +31,12 @@ def write(loaded, options):
     """Plots and page of what was loaded; Damaged where a section of others is damaged."""
     out = options.verify.resolve().parent
     directories = {"charts": out / "charts"}
-    if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts"):
+    if not (out / "charts/charts.json").exists() and charts.from_kept(options.kept, options.verify / "kept/charts", loaded.version):
         directories["charts"] = options.verify / "kept/charts"
     for name in ("stability", "mutate", "faults"):
         if not (out / name / f"{name}.json").exists():
             directories[name] = options.kept / name
-    others = sections.read_all(out, directories)
+    others = sections.read_all(out, directories, loaded.version)
     plots = figures.draw_all(loaded, options.verify / "plots", options.kept)
     kept = kept_results.read(options.kept / "verify/results.json")
     write_whole(options.verify / "report.html", page.render(loaded, plots, others, kept))

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from granvof_files import OF_READING, fields_of, is_there, json_of, text_of, values_of
+from report import versions
 
 
 class Damaged(ValueError):
@@ -43,6 +44,11 @@ class Results:
     damaged: list = field(default_factory=list)  # what could not be shown, and why: one sentence each
     causes: dict = field(default_factory=dict)  # key -> what expected failures have in common
     cases: Path = Path("cases")  # directory of the case files, with published/
+
+    @property
+    def version(self):
+        """The minor version of the program that made the runs."""
+        return versions.newest(run.get("version") for run in self.runs.values())
 
     def row(self, scene, metric):
         """The first row of that scene and metric, or None."""

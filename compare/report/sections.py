@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from granvof_files import bytes_of, json_of
+from report import versions
 from report.embedded import encoded
 from report.results import Damaged
 
@@ -29,14 +30,14 @@ class Section:
     made: str = ""
 
 
-def read_all(out, directories=None):
+def read_all(out, directories=None, now=None):
     """The sections that are there, below the directory that also holds verify/ or where `directories` has them. Raises
-    Damaged, a ValueError with the file's name, where one is."""
+    Damaged, a ValueError with the file's name, where one is. `now`: the page's minor version (versions.py)."""
     places = {name: out / name for name in NAMES} | (directories or {})
-    return [read(places[name]) for name in NAMES if (places[name] / f"{name}.json").exists()]
+    return [read(places[name], now) for name in NAMES if (places[name] / f"{name}.json").exists()]
 
 
-def read(directory):
+def read(directory, now=None):
     source = directory / f"{directory.name}.json"
     try:
         given = json_of(source)
@@ -46,7 +47,8 @@ def read(directory):
                        [figure(directory, entry) for entry in figures],
                        [{"caption": table.get("caption", ""), "columns": table["columns"], "rows": table["rows"]}
                         for table in given.get("tables", [])],
-                       ", ".join(given[key] for key in ("commit", "date") if given.get(key)))
+                       ", ".join(given[key] + (versions.remark(given[key], now) if key == "commit" else "")
+                                 for key in ("commit", "date") if given.get(key)))
     except (KeyError, TypeError, AttributeError, OSError, ValueError) as error:
         raise Damaged(source, error) from error
 

@@ -4,7 +4,7 @@ import math
 
 import matplotlib.patches as patches
 
-from report import style
+from report import style, versions
 from report.results import read_json
 from report.style import plt
 
@@ -31,7 +31,7 @@ def bar(axis, left, right, y, height, **look):
     axis.add_patch(patches.Rectangle((min(left, right), y - height / 2), abs(right - left), height, **look))
 
 
-def map_plot(found, directory):
+def map_plot(found, directory, now=None):
     if not found or not found["axes"]:
         return []
     names = list(dict.fromkeys(entry["axis"] for entry in found["axes"]))
@@ -68,7 +68,7 @@ def map_plot(found, directory):
     axis.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.4, -0.02), ncol=3, fontsize=7)
     axis.set_title("upper to lower bar: " + ", ".join(methods) + "; tick: nominal value", loc="left", fontsize=8)
     if found.get("commit"):
-        figure.supxlabel(f"{found['commit']}, {found['date'][:10]}", fontsize=5.5, color="0.45")
+        figure.supxlabel(f"{found['commit']}{versions.remark(found['commit'], now)}, {found['date'][:10]}", fontsize=5.5, color="0.45")
     axis.set_xlim(0, 1)
     axis.set_ylim(-len(names) + 0.5, 0.5)
     axis.set_axis_off()
