@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Callable, Sequence
 
@@ -16,6 +17,7 @@ from night.together import ends_with_parent
 
 GUARD = str(Path(__file__).resolve().parent / "guard.py")
 PASSED, FAILED, TIMED_OUT, BLOCKED, NOT_AVAILABLE = "passed", "failed", "timed out", "blocked", "not available"
+FLOOR = 30 * 60.0  # seconds that a stage gets of a short total, as far as its own limit and the total go
 GRACE = 15.0  # longer than the guard's own; seconds between the polite and the hard end of a stage that takes too long
 
 
@@ -122,9 +124,22 @@ def run_stage(stage: Stage, number: int, run: StageRun) -> Outcome:
     return Outcome(status, round(time.monotonic() - started, 2))
 
 
-def run_stages(stages: Sequence[Stage], run: StageRun, say: Callable[[str], None]) -> None:
-    """Runs what has no outcome yet; saves the state after each stage."""
+def fitted(stages: Sequence[Stage], left: float) -> Stage:
+    """The first of the stages, with what it may take where all of them have `left` seconds: its limit if there is room for
+    the limits of all, else its share of them, but no less than FLOOR where its limit and what is left are that much."""
+    own = stages[0].time_limit
+    share = left * own / sum(stage.time_limit for stage in stages)
+    return replace(stages[0], time_limit=max(0.0, min(own, max(FLOOR, share), left)))
+
+
+def run_stages(stages: Sequence[Stage], run: StageRun, say: Callable[[str], None], total: float = math.inf) -> None:
+    """Runs what has no outcome yet; saves the state after each stage. In `total` seconds all must be done; the last stage, the
+    report, has its own limit of them kept free."""
+    deadline = time.monotonic() + total - (stages[-1].time_limit if len(stages) > 1 else 0.0)
     for number, stage in enumerate(stages, 1):
+        if number < len(stages) and total < math.inf:
+            due = [one for one in stages[number - 1:-1] if one.name not in run.outcomes]
+            stage = fitted(due, deadline - time.monotonic()) if due and due[0] is stage else stage
         head = f"{number}/{len(stages)} {stage.name:<12}"
         if stage.name in run.outcomes:
             say(f"{head} {run.outcomes[stage.name].status} (before)")

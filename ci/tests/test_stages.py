@@ -91,6 +91,35 @@ def test_time_limit_is_for_the_stage_as_a_whole(tmp_path):
     assert status(run) == {"naps": "timed out"}
 
 
+def limits(left, *own):
+    """What stages of these limits get one after the other, where each takes all of it."""
+    found, plan = [], [Stage(str(number), Path("."), limit) for number, limit in enumerate(own)]
+    for number in range(len(plan)):
+        found.append(stages.fitted(plan[number:], left - sum(found)).time_limit)
+    return found
+
+
+def test_whatever_stages_take_they_end_within_the_total():
+    assert limits(1000, 10, 20, 30) == [10, 20, 30]  # there is room for all
+    half = stages.FLOOR
+    assert limits(4 * half, half, 10 * half, 9 * half) == pytest.approx([half, 3 * half * 10 / 19, 3 * half * 9 / 19])  # a short one whole
+    for total in (half / 2, half, 3 * half, 10 * half):
+        assert sum(limits(total, 2 * half, 16 * half, 8 * half)) <= total
+    assert limits(0, 10, 10) == [0, 0]
+
+
+def test_a_total_ends_what_takes_too_long_but_not_the_report(tmp_path, monkeypatch):
+    monkeypatch.setattr(stages, "FLOOR", 0.0)
+    run = StageRun(tmp_path / "run")
+    run.save()
+    nap = [[PYTHON, "-c", "import time; time.sleep(60)"]]
+    begun = time.monotonic()
+    run_stages([Stage("one", tmp_path, 40, nap), Stage("two", tmp_path, 40, nap), Stage("report", tmp_path, 5, [["true"]])], run,
+               lambda line: None, total=7)
+    assert time.monotonic() - begun < 20
+    assert status(run) == {"one": "timed out", "two": "timed out", "report": "passed"}
+
+
 def test_resumes_after_the_last_finished_stage(tmp_path):
     count = [["sh", "-c", "echo x >> count"]]
     with pytest.raises(KeyboardInterrupt):
