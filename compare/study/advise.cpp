@@ -169,8 +169,14 @@ class Walk {
 
 }  // namespace
 
+std::string name_of(const Method& method) {
+  const std::string preset = "preset " + method.preset;
+  return method.preset.empty() || method.name == preset ? method.name
+                                                        : fmt::format("{} ({})", preset, method.name);
+}
+
 std::string name_of(const Configuration& configuration) {
-  std::string name = fmt::format("{} on {:.4g} mm", configuration.method.name, 1e3 * configuration.cell);
+  std::string name = fmt::format("{} on {:.4g} mm", name_of(configuration.method), 1e3 * configuration.cell);
   for (const Part& part : configuration.without) name += ", " + part.name;
   return name;
 }

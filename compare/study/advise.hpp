@@ -61,6 +61,8 @@ struct Advice {
 Advice advise(const std::vector<double>& cells, const std::vector<Method>& methods,
               const std::vector<Part>& parts, double tolerance, Bench& bench);
 
+// "preset paper (first order, CICSAM)" of a method that is a preset, else its name.
+std::string name_of(const Method& method);
 // "second order, CICSAM on 2.5 mm, no LES".
 std::string name_of(const Configuration& configuration);
 

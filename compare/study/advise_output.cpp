@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/study/advise_scene.hpp"
+#include "compare/study/answer.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -15,6 +16,18 @@ using Json = nlohmann::ordered_json;
 
 Json json_number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+
+Json answer_json(const AdviseReport& report) {
+  const auto answer = answer_of(report);
+  if (!answer) return nullptr;
+  return {{"confirmed", answer->confirmed},
+          {"value", answer->value},
+          {"unit", report.input.quantity.unit()},
+          {"end_of_curve", json_number(answer->end)},
+          {"by_grid", json_number(answer->by_grid)},
+          {"by_model", json_number(answer->by_model)},
+          {"by_model_and_grid", json_number(answer->by_both)}};
 }
 
 std::string error_text(const Trial& trial) {
@@ -84,6 +97,7 @@ std::vector<std::string> advise_summary(const AdviseReport& report) {
   std::vector<std::string> lines{fmt::format("{}: {} to {:g} %", report.scene, report.input.quantity.label(),
                                              100.0 * report.input.tolerance),
                                  meaning_of(target)};
+  if (const auto answer = answer_of(report)) lines.push_back(answer_text(report, *answer));
   if (grid_only)
     for (const std::string& line : likeness_text(report.numbers, report.input.like)) lines.push_back(line);
   for (const std::string& line : other_models(report)) lines.push_back(line);
@@ -125,6 +139,7 @@ std::string advise_json(const AdviseReport& report) {
       {"scene", report.scene},
       {"quantity", report.input.quantity.label()},
       {"tolerance", report.input.tolerance},
+      {"answer", answer_json(report)},
       {"reference",
        {{"kind", report.target.kind}, {"source", report.target.source}, {"floor", report.target.floor}}},
       {"version", report.version},

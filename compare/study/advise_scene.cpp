@@ -8,7 +8,9 @@
 
 #include "compare/checks/theory.hpp"
 #include "compare/study/ablate.hpp"
+#include "solver/scene/case_error.hpp"
 #include "solver/scene/load_scene.hpp"
+#include "solver/scene/presets.hpp"
 
 namespace granvof::compare {
 namespace {
@@ -154,7 +156,7 @@ void try_other_models(const std::vector<Method>& methods, const Method& model, c
     if (method.other_model && method.name != model.name) others.push_back(method);
   for (const Method& method : others) {
     const Outcome made = bench.outcome({cell, method, {}});
-    OtherModel other{method.name, bench.distance({cell, method, {}}, {cell, model, {}}), made.failure};
+    OtherModel other{name_of(method), bench.distance({cell, method, {}}, {cell, model, {}}), made.failure};
     report.others.push_back(std::move(other));
   }
 }
@@ -185,7 +187,7 @@ Target choose_target(const AdviseInput& input, const Method& method, const Scene
     throw std::runtime_error(
         fmt::format("no reference: {}; no theory; and on the finest grid {}", dem.note, finest.failure));
   const Outcome next = bench.outcome({input.cells[input.cells.size() - 2], method, {}});
-  Target own = own_target(input.quantity, *finest.run, method.name, next.run ? &*next.run : nullptr);
+  Target own = own_target(input.quantity, *finest.run, name_of(method), next.run ? &*next.run : nullptr);
   if (!own.observed.defined()) throw std::runtime_error(fmt::format("no reference: {}", own.note));
   own.cost = dem.cost;
   return own;
@@ -224,14 +226,34 @@ std::vector<std::vector<Job>> jobs_of(const AdviseInput& input, const std::vecto
   return jobs;
 }
 
-AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& methods,
+std::vector<Method> with_presets(std::vector<Method> methods, const AdviseInput& input) {
+  const auto resolved = [&](const std::vector<std::string>& set) {
+    std::vector<std::string> all = input.set;
+    all.insert(all.end(), set.begin(), set.end());
+    try {
+      return load_scene(input.case_file, all).resolved;
+    } catch (const CaseError&) {  // not for this scene
+      return std::string();
+    }
+  };
+  for (const case_file::PresetEntry& entry : case_file::presets()) {
+    const std::string made = resolved({"model.preset=" + entry.word});
+    for (Method& method : methods)
+      if (!made.empty() && resolved(method.set) == made) method.preset = entry.word;
+  }
+  return methods;
+}
+
+AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& given,
                           const std::vector<Part>& parts, Runner& runner) {
   const Scene scene = load_scene(input.case_file, input.set);
+  const std::vector<Method> methods = with_presets(given, input);
   const Method& paper = reference_method(input, methods);
   const Method& model = model_to_advise_on(input, methods, scene);
   SceneBench bench(input, model, scene, runner);
   AdviseReport report{scene.name, "", input, choose_target(input, model, scene, bench), {}, {}, ""};
   report.numbers = numbers_of(scene);
+  report.preset = preset_of(load_scene(input.case_file, bench.set_of({input.cells.back(), model, {}})));
   bench.aim_at(report.target);
   if (report.target.floor > largest_floor * input.tolerance) {
     report.refusal = fmt::format(
@@ -247,7 +269,7 @@ AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& m
   }
   std::vector<Method> tried = methods;
   if (report.target.kind == kind_of_own) {
-    report.model = model.name;
+    report.model = name_of(model);
     tried = methods_of_model(methods, model);
     try_other_models(methods, model, paper, bench, report);
   }
@@ -255,6 +277,8 @@ AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& m
   if (!report.advice.chosen) return report;
   report.set = bench.set_of(report.advice.chosen->configuration);
   const Outcome chosen = bench.outcome(report.advice.chosen->configuration);
+  report.observed = observe(input.quantity, *chosen.run);
+  report.preset = preset_of(load_scene(input.case_file, report.set));
   report.version = chosen.facts->version;
   if (!chosen.facts->commit.empty()) report.version += fmt::format(" ({})", chosen.facts->commit);
   return report;

@@ -46,7 +46,12 @@ struct AdviseReport {
   std::string model{};               // against our own finest grid: the method that stands for it
   std::vector<OtherModel> others{};  // likewise
   double others_cell = 0.0;          // where they were tried [m]
+  Observed observed{};               // of the chosen configuration
+  std::string preset{};              // of its model; where none was chosen, of our own finest grid
 };
+
+// Each with the preset that it makes in this scene, where it makes one.
+std::vector<Method> with_presets(std::vector<Method> methods, const AdviseInput& input);
 
 // Cell sizes to walk by default: of `grids` (of the scene's chart), else of four, two, one, a half and a
 // quarter times the case's own, those not below a grain [m], large to small; at least two.

@@ -27,16 +27,16 @@ Curve front(const Run& run) {
 
 // A curve that can be asked for by name.
 struct CurveEntry {
-  std::string_view name;
+  std::string_view name, unit, abscissa;
   Curve (*function)(const Run&);
 };
 
 constexpr std::array curves{
-    CurveEntry{"run_out", run_out_curve},              // (l - l0) / h0 [-] against T
-    CurveEntry{"run_out_dense", run_out_dense_curve},  // the same by f_s >= 0.95 f_s,min
-    CurveEntry{"front", front},                        // largest x with f_s >= 0.95 f_s,min [m] against t [s]
-    CurveEntry{"solid_height", solid_height},          // centre of mass of all solids [m] against t [s]
-    CurveEntry{"liquid_front", scaled_liquid_front},   // x / a of the water [-] against t sqrt(2 g / a)
+    CurveEntry{"run_out", "-", "T", run_out_curve},              // (l - l0) / h0
+    CurveEntry{"run_out_dense", "-", "T", run_out_dense_curve},  // the same by f_s >= 0.95 f_s,min
+    CurveEntry{"front", "m", "t [s]", front},                    // largest x with f_s >= 0.95 f_s,min
+    CurveEntry{"solid_height", "m", "t [s]", solid_height},      // centre of mass of all solids
+    CurveEntry{"liquid_front", "-", "t sqrt(2 g / a)", scaled_liquid_front},  // x / a of the water
 };
 
 const CurveEntry* find_curve(std::string_view name) {
@@ -65,6 +65,14 @@ std::string allowed() {
 
 std::string Quantity::label() const {
   return labelled(name, parameters);
+}
+
+std::string_view Quantity::unit() const {
+  return is_curve ? find_curve(name)->unit : find_metric(name)->unit;
+}
+
+std::string_view Quantity::abscissa() const {
+  return find_curve(name)->abscissa;
 }
 
 Quantity parse_quantity(std::string_view text, std::optional<Window> window,
@@ -134,13 +142,17 @@ std::optional<double> relative_distance(const Quantity& quantity, const Observed
   return *distance / *range;
 }
 
+std::optional<double> scale_of(const Quantity& quantity, const Observed& observed) {
+  if (quantity.is_curve) return range_of(observed.curve, quantity.parameters.window);
+  return observed.value ? std::optional(std::abs(*observed.value)) : std::nullopt;
+}
+
 std::optional<double> relative_uncertainty(const Quantity& quantity, const Run& record,
                                            const Observed& observed, const Bands& bands) {
   const auto uncertainty = record_uncertainty(quantity.name, record, bands);
-  const auto scale =
-      quantity.is_curve ? range_of(observed.curve, quantity.parameters.window) : observed.value;
+  const auto scale = scale_of(quantity, observed);
   if (!uncertainty || !scale || *scale == 0.0) return std::nullopt;
-  return *uncertainty / std::abs(*scale);
+  return *uncertainty / *scale;
 }
 
 }  // namespace granvof::compare

@@ -19,6 +19,8 @@ struct Quantity {
   bool is_curve = false;
   // "run_out@10"
   std::string label() const;
+  std::string_view unit() const;      // "-" for none
+  std::string_view abscissa() const;  // of a curve, with its unit: "T", "t [s]"
 };
 
 // From "NAME" or "NAME@AT": a metric where the registry has NAME and all it needs is given, else a curve.
@@ -40,6 +42,10 @@ Observed observe(const Quantity& quantity, const Run& run);
 // (default: the part of the abscissa that both cover), over the range of b in it. Nothing where one is
 // undefined, does not cover the window, or b's magnitude or range is 0.
 std::optional<double> relative_distance(const Quantity& quantity, const Observed& a, const Observed& b);
+
+// What relative_distance() is relative to: a value's magnitude, a curve's range in the window. Nothing where
+// it has none.
+std::optional<double> scale_of(const Quantity& quantity, const Observed& observed);
 
 // The uncertainty of a record (input/uncertainty.hpp), relative as relative_distance() is [-].
 std::optional<double> relative_uncertainty(const Quantity& quantity, const Run& record,

@@ -21,6 +21,8 @@ struct Method {
   bool other_model = false;
   // Whether `advise` tries it: not what costs many times the others.
   bool advise = true;
+  std::string preset =
+      {};  // the preset that it makes in the scene at hand, where one looked (advise_scene.hpp)
 };
 
 // Another program's runs, or the reference's at another resolution, as points of the charts.
