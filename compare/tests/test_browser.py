@@ -137,6 +137,17 @@ def test_a_row_leads_to_its_plot_its_cause_and_its_case(page):
     assert any("#cause-toe" in row for row in links)
 
 
+def test_the_first_screen_holds_what_others_judge_and_the_rest_is_closed(page):
+    heads = page.run("return [...document.querySelectorAll('#table-glance th')].map(head => head.textContent.trim())")
+    assert heads == ["scene", "quantity", "error to DEM", "to published", "tolerance", "times dearer", "verdict", "see"]
+    rows = page.run("""return [...document.querySelectorAll('#table-glance tbody tr')]
+                       .map(row => [...row.cells].map(cell => cell.textContent.trim()))""")
+    assert all(row[2] or row[3] or row[6] == "not run" for row in rows)
+    assert [row[4] for row in rows if row[:2] == ["s1", "run out"]] == ["0.05 h0, band 0.1 h0"]
+    assert page.run("return document.getElementById('rest').open") is False
+    assert page.run("return [...document.querySelectorAll('#rest tbody tr')].some(row => row.textContent.includes('period'))")
+
+
 def test_the_filter_leaves_what_holds_its_words(page):
     def rows():
         return page.run("return [...document.querySelectorAll('#table-glance tbody tr')].filter(row => !row.hidden).length")
