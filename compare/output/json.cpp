@@ -99,6 +99,7 @@ Json json_curves(const Run& run) {
   };
   add("run_out", run_out_curve(run));
   add("run_out_dense", run_out_dense_curve(run));
+  add("run_out_quantile", run_out_quantile_curve(run));
   add("excess_base_pressure", excess_base_pressure(run));
   for (const char* column : {"y_c", "y_solid_mean"}) {
     // About the paper's mean, over 3-6 s of 6 s.

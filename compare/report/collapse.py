@@ -24,6 +24,23 @@ def run_out_plot(results, directory):
                   "run-out")
 
 
+DRY = {"canary-dry": "preset paper", "canary-dry-frictional": "frictional restitution", "canary-dry-advised": "preset advised"}
+
+
+def dry_front_plot(results, directory):
+    """The collapse in air: the front of nearly all grains, of each set of choices, beside the beads' record."""
+    shown = runs_with(results, DRY, "run_out_quantile")
+    if not shown:
+        return []
+    figure, axis = plt.subplots(figsize=(5.6, 4.0))
+    for run, colour in zip(shown, style.CYCLE):
+        draw_run(axis, results, run, "run_out_quantile", colour, f"continuum, {DRY[run]}")
+    draw_records(axis, results, "canary-dry", "run_out_quantile", style.DEM, "")
+    axis.set_xlim(left=0)
+    return finish(figure, axis, r"$T = t / \sqrt{h_0 / g}$ [-]", r"front of 99.5 % of the grains, $(l - l_0) / h_0$ [-]", results, shown,
+                  directory, "dry-front")
+
+
 def base_pressure_plot(results, directory):
     """Fig. 5: excess pore pressure at the base, loose against dense; apart, as they differ a hundredfold."""
     shown = runs_with(results, ("s1-loose", "s1-dense"), "excess_base_pressure")
