@@ -87,6 +87,7 @@ class Point:
     commit: str
     value: float | None
     verdict: str = ""
+    run: str = ""  # its directory's name
 
 
 class History:
@@ -136,14 +137,14 @@ class History:
     def metric_points(self, check: str, before: str | None = None) -> list[Point]:
         """All nights of one check, oldest first; `before`: only runs that started before that date."""
         rows = self._db.execute(
-            "select run.date, run.commit_hash, metric.value, metric.verdict from metric join run on run.id = metric.run"
+            "select run.date, run.commit_hash, metric.value, metric.verdict, run.name from metric join run on run.id = metric.run"
             " where metric.id = ? and (? is null or run.date < ?) order by run.date, run.id",
             (check, before, before))
         return [Point(*row) for row in rows]
 
     def cost_points(self, name: str, host: str, before: str | None = None) -> list[Point]:
         rows = self._db.execute(
-            "select run.date, run.commit_hash, cost.value from cost join run on run.id = cost.run"
+            "select run.date, run.commit_hash, cost.value, '', run.name from cost join run on run.id = cost.run"
             " where cost.name = ? and run.host = ? and (? is null or run.date < ?) order by run.date, run.id",
             (name, host, before, before))
         return [Point(*row) for row in rows]
