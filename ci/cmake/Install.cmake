@@ -7,8 +7,10 @@ install(TARGETS granvof_program granvof-compare RUNTIME DESTINATION ${CMAKE_INST
 install(FILES solver/python/granvof.py solver/python/granvof_files.py DESTINATION lib/python3/dist-packages)
 install(DIRECTORY cases DESTINATION ${share})
 install(FILES compare/checks.toml compare/study.toml DESTINATION ${share}/compare)
-# What `granvof report` hands over to; it looks for the modules beside itself.
-install(PROGRAMS compare/show DESTINATION ${share}/compare)
+# What `granvof report` and `granvof sweep` hand over to; they look for the modules beside themselves.
+install(PROGRAMS compare/show compare/sweep DESTINATION ${share}/compare)
+install(FILES compare/engine/__init__.py compare/engine/client.py DESTINATION ${share}/compare/engine)
+install(FILES ci/night/__init__.py ci/night/together.py DESTINATION ${share}/ci/night)
 install(DIRECTORY compare/report DESTINATION ${share}/compare PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY solver/python DESTINATION ${share}/solver PATTERN __pycache__ EXCLUDE)
 install(FILES compare/kept/verify/results.json DESTINATION ${share}/compare/kept/verify)

@@ -37,6 +37,17 @@ def test_the_module_is_found(installed):
                    env=os.environ | {"PYTHONPATH": str(installed / "lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"})
 
 
+def test_a_sweep_is_made_without_the_sources(installed, tmp_path):
+    made = subprocess.run([installed / "bin/granvof", "sweep", installed / "share/granvof/cases/canary-dry.toml", "--set", "time.end=0.1,0.2",
+                           "--set", "output.series_interval=0.05", "--set", "output.field_times=[0]"], cwd=tmp_path, capture_output=True,
+                          text=True, env=os.environ | {"MPLCONFIGDIR": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"})
+    assert made.returncode == 0, made.stderr
+    assert "time.end" in made.stdout.splitlines()[0] and "cost [core-s]" in made.stdout.splitlines()[0]
+    assert (tmp_path / "out/sweep/canary-dry/sweep.png").exists()
+    bad = subprocess.run([installed / "bin/granvof", "sweep", "none.toml", "--set", "a"], cwd=tmp_path, capture_output=True, text=True)
+    assert bad.returncode == 2 and bad.stderr.count("\n") == 1, bad.stderr
+
+
 def test_a_report_is_made_without_the_sources(installed, tmp_path):
     case = installed / "share/granvof/cases/canary-dry.toml"
     run = [installed / "bin/granvof", "run", case, "--out", "run", "--set", "time.end=0.2", "--set", "output.series_interval=0.05",

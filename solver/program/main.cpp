@@ -1,5 +1,5 @@
-// The program granvof: run, check, report, restate and keys. Exit codes: 0 done, 1 the run failed or was
-// stopped by a signal, 2 bad input, 3 the run was stopped at its wall-clock limit (--stop-after).
+// The program granvof: run, check, report, sweep, restate and keys. Exit codes: 0 done, 1 the run failed or
+// was stopped by a signal, 2 bad input, 3 the run was stopped at its wall-clock limit (--stop-after).
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -22,7 +22,7 @@
 #include "solver/output/standard_streams.hpp"
 #include "solver/parallel/processes.hpp"
 #include "solver/plausibility/plausibility.hpp"
-#include "solver/program/report.hpp"
+#include "solver/program/hand_over.hpp"
 #include "solver/program/start_picture.hpp"
 #include "solver/run/memory_demand.hpp"
 #include "solver/run/run_case.hpp"
@@ -46,6 +46,8 @@ struct Arguments {
   granvof::UnitFactors factors;
   std::string picture;
   std::vector<std::string> directories;
+  std::vector<std::string> metrics;  // of a sweep
+  std::string jobs;                  // likewise, at a time
 };
 
 void add_case(CLI::App& command, Arguments& arguments) {
@@ -129,6 +131,15 @@ int restate(const Arguments& arguments) {
   return 0;
 }
 
+[[noreturn]] void sweep(const Arguments& arguments) {
+  std::vector<std::string> words{arguments.case_file, "--solver=" + granvof::own_program().string()};
+  for (const std::string& axis : arguments.overrides) words.push_back("--set=" + axis);
+  for (const std::string& metric : arguments.metrics) words.push_back("--metric=" + metric);
+  if (!arguments.jobs.empty()) words.push_back("--jobs=" + arguments.jobs);
+  if (!arguments.run.out.empty()) words.push_back("--out=" + arguments.run.out.string());
+  granvof::hand_over("sweep", "sweep", words);
+}
+
 int keys() {
   fmt::print("{}", granvof::keys_reference());
   return 0;
@@ -149,7 +160,7 @@ std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const std::vector<std::string> left = app->remaining();
   const bool misspelt = app->get_subcommands().empty() && !left.empty();
   const std::string what =
-      misspelt ? fmt::format("got {}, allowed: run, check, report, restate, keys", left.front())
+      misspelt ? fmt::format("got {}, allowed: run, check, report, sweep, restate, keys", left.front())
                : error.what();
   return fmt::format("granvof: {} (granvof --help says what is allowed)\n",
                      granvof::case_file::printable(what, longest_message));
@@ -197,6 +208,22 @@ int parse_and_run(int argc, char** argv, const granvof::Communicator* processes)
   report_command.add_option("directory", arguments.directories, "Run directories")
       ->required()
       ->type_name("DIR");
+  CLI::App& sweep_command = *app.add_subcommand(
+      "sweep", "Run a case with every combination of values: a table and a plot, in DIR/NAME");
+  add_case(sweep_command, arguments);
+  sweep_command.get_option("--set")
+      ->description("Values of a key, parted by commas; again for more keys")
+      ->type_name("TABLE.KEY=VALUE,...");
+  sweep_command
+      .add_option("--metric", arguments.metrics,
+                  "Column of series.csv, its last value; may be given again (front_dense)")
+      ->type_name("COLUMN")
+      ->allow_extra_args(false);
+  sweep_command
+      .add_option("--jobs", arguments.jobs, "Runs beside each other (1: each alone, its cost is measured)")
+      ->check(CLI::Range(1, most_threads))
+      ->type_name("N");
+  sweep_command.add_option("--out", out, "By default out/sweep")->type_name("DIR");
   CLI::App& restate_command = *app.add_subcommand(
       "restate", "Print a case in full in other units: the same dimensionless problem, the same steps");
   add_case(restate_command, arguments);
@@ -228,7 +255,8 @@ int parse_and_run(int argc, char** argv, const granvof::Communicator* processes)
   if (!stop_after.empty()) arguments.run.stop_after = granvof::read_duration(stop_after);
   if (keys_command.parsed()) return keys();
   if (check_command.parsed()) return check(arguments);
-  if (report_command.parsed()) granvof::make_report(arguments.directories);
+  if (report_command.parsed()) granvof::hand_over("report", "show", arguments.directories);
+  if (sweep_command.parsed()) sweep(arguments);
   if (restate_command.parsed()) return restate(arguments);
   return run(arguments);
 }

@@ -68,7 +68,7 @@ TEST_F(Program, PrintsVersionAndHelp) {
   EXPECT_EQ(version.out.rfind("granvof ", 0), 0U) << version.out;
   const Outcome help = granvof("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* word : {"run", "check", "report", "restate", "keys"})
+  for (const char* word : {"run", "check", "report", "sweep", "restate", "keys"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
 }
 
