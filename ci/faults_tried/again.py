@@ -1,5 +1,6 @@
 """Programs that take long and start others, ended in their midst and started again: the same results, and none of before."""
 
+import csv
 import json
 import os
 import shutil
@@ -13,10 +14,14 @@ from faults_tried.orphans import END, as_from_a_terminal, processes_of, wait_unt
 LONG = 900.0  # seconds
 
 
-def result_of(place, name, members=None):
-    """The bytes of a result; with `members` the second of each step by the first: costs, and what is tried by them, are not the same
-    twice. None where it is not there. Places in it are not the same twice either."""
+def result_of(place, name, members=None, cost=None):
+    """The bytes of a result; with `members` the second of each step by the first, with `cost` the table without that column: costs, and
+    what is tried by them, are not the same twice. None where it is not there. Places in it are not the same twice either."""
     path = place / name
+    if cost and path.exists():
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
+        return None if any(cost not in row for row in rows) else [{column: row[column] for column in row if column != cost} for row in rows]
     if members and path.exists():
         return {step[members[0]]: step[members[1]] for step in json.loads(path.read_bytes())["steps"]}
     return path.read_bytes().replace(str(place).encode(), b"") if path.exists() else None
@@ -61,8 +66,8 @@ def begun_again(bench, entry):
     begun = time.monotonic()
     whole = bench.call(bench.filled(entry["command"], work=first), patience=LONG)
     length = time.monotonic() - begun
-    members = entry.get("members")
-    result = result_of(first, entry["result"], members)
+    apart = entry.get("members"), entry.get("cost")
+    result = result_of(first, entry["result"], *apart)
     if whole is None or whole.returncode != 0 or result is None:
         raise TableError(f"{' '.join(entry['command'])}: exit code {whole and whole.returncode}: {whole and (whole.stdout + whole.stderr)[-200:]!r}")
     for number in bench.some(range(entry["times"]), entry["sample"]):
@@ -84,7 +89,7 @@ def begun_again(bench, entry):
         again = [path for path, at in made.items() if not path.exists() or os.stat(path).st_mtime_ns != at]
         if not why and again:
             why = f"{len(again)} of {len(made)} finished runs were made again"
-        if not why and not is_same(result_of(place, entry["result"], members), result):
+        if not why and not is_same(result_of(place, entry["result"], *apart), result):
             why = f"other results in {entry['result']}"
         yield f"{name} to {' '.join(entry['command'][:2])}, try {number + 1}", why
         bench.drop(place / "any")
