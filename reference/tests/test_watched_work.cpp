@@ -3,7 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -44,6 +46,16 @@ TEST(WatchedWork, AnEndFromWithinIsNoReturn) {
   });
   EXPECT_FALSE(aborted.code);
   EXPECT_NE(aborted.how, "exit code 0");
+}
+
+// A daemon of MPI would outlive what is killed, and hold what it had open.
+TEST(WatchedWork, MpiStartsNoOtherProcess) {
+  const WorkEnd done = work_in_own_process([] {
+    const demvof::MpiSession session;
+    std::ifstream children("/proc/self/task/" + std::to_string(::getpid()) + "/children");
+    return static_cast<int>(std::distance(std::istream_iterator<int>(children), {}));
+  });
+  EXPECT_EQ(done.code, 0);
 }
 
 TEST(WatchedWork, ASignalToTheOneThatWaitsReachesTheWork) {
