@@ -2,12 +2,11 @@
 
 import errno
 import json
-import os
 import shutil
 import signal
 import time
 
-from faults_tried.runs import SmallRun, crashed, tree_of
+from faults_tried.runs import SmallRun, crashed, stops, tree_of
 
 
 def kills(bench, entry):
@@ -67,9 +66,8 @@ def swaps_at_calls(bench, entry):
     for number in numbers:
         out = bench.place() / "run"
         running = run.start(out, environment=bench.shimmed(FAULT_CALL=str(number), FAULT_SIGNAL=str(int(signal.SIGSTOP))))
-        has_stopped = os.waitid(os.P_PID, running.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT).si_code == os.CLD_STOPPED
         moved = out.with_name("moved")
-        if has_stopped and out.exists():
+        if stops(running) and out.exists():
             out.rename(moved)
             shutil.copytree(other, out)
         running.send_signal(signal.SIGCONT)

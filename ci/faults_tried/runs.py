@@ -73,6 +73,11 @@ def stop(process):
     """Stops a process, and waits until it has: a signal takes its time, in which a file may come or go. False where the process
     had ended before."""
     process.send_signal(signal.SIGSTOP)
+    return stops(process)
+
+
+def stops(process):
+    """Waits until a process has stopped, as it does itself or was told to; False where it ended instead."""
     return os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT).si_code == os.CLD_STOPPED
 
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compare/checks/homogeneous.hpp"
+#include "compare/metrics/flow_section.hpp"
 #include "solver/scene/gravity.hpp"
 
 namespace granvof::compare {
@@ -68,8 +69,7 @@ std::optional<double> heap_flat_top(const Run& run, const Parameters&) {
 
 std::optional<double> film_speed(const Run& run, const Parameters&) {
   const Scene& scene = run.scene;
-  const double depth = scene.tank[1], y = depth - 0.5 * scene.grid.spacing[1];
-  return scene.liquid.density * gravity_of(scene)[0] / scene.liquid.viscosity * (depth * y - 0.5 * y * y);
+  return speed_in_film(scene, scene.tank[1], scene.tank[1] - 0.5 * scene.grid.spacing[1]);
 }
 
 std::optional<double> film_depth(const Run& run, const Parameters&) {

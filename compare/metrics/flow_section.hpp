@@ -12,8 +12,11 @@ namespace granvof::compare {
 // Depth of the liquid [m] in the middle of the tank along x: alpha summed up from the floor.
 double liquid_depth_in_the_middle(const CellFields& fields);
 
-// Largest distance of u_c along x in the middle of the tank from Nusselt's film of the depth there,
-// u(y) = g_x rho / mu (h y - y^2 / 2), in cells that are liquid, as those above them are, over its largest
+// u(y) = g_x rho / mu (h y - y^2 / 2) [m/s] of a film of that depth [m], y from the floor (Nusselt 1916).
+double speed_in_film(const Scene& scene, double depth, double y);
+
+// Largest distance of u_c along x in the middle of the tank from a film of the depth there, in cells that are
+// liquid, as those above them are, over its largest
 // [-]. Nothing without such cells.
 std::optional<double> film_distance(const CellFields& fields, const Scene& scene);
 

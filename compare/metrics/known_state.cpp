@@ -9,10 +9,6 @@
 namespace granvof::compare {
 namespace {
 
-std::size_t cell(const CellFields& fields, int i, int j, int k) {
-  return static_cast<std::size_t>((k * fields.cells[1] + j) * fields.cells[0] + i);
-}
-
 // Weight less buoyancy of the grains of a cell [Pa].
 double weight_of(const CellFields& fields, const Scene& scene, std::size_t c) {
   const double pores = std::lerp(scene.gas.density, scene.liquid.density, fields.alpha[c]);
@@ -37,7 +33,7 @@ std::optional<double> slip_in_the_middle(const CellFields& fields) {
   double sum = 0.0;
   for (int k = 0; k < fields.cells[2]; ++k)
     for (int i = 0; i < fields.cells[0]; ++i) {
-      const std::size_t c = cell(fields, i, j, k);
+      const std::size_t c = fields.index(i, j, k);
       if (fields.f_s[c] <= 0.0) return std::nullopt;
       sum += fields.u_c[1][c] - fields.u_s[1][c];
     }
@@ -52,10 +48,10 @@ std::optional<double> weight_distance(const CellFields& fields, const Scene& sce
     for (int i = 0; i < fields.cells[0]; ++i) {
       double above = 0.0;
       for (int j = fields.cells[1] - 1; j >= 0; --j) {
-        const std::size_t c = cell(fields, i, j, k);
+        const std::size_t c = fields.index(i, j, k);
         const double own = weight_of(fields, scene, c), borne = above + 0.5 * own;
         above += own;
-        if (!full(c) || j + 1 == fields.cells[1] || !full(cell(fields, i, j + 1, k))) continue;
+        if (!full(c) || j + 1 == fields.cells[1] || !full(fields.index(i, j + 1, k))) continue;
         distance = std::max(distance, std::abs(fields.p_s[c] - borne));
         largest = std::max(largest, borne);
       }
@@ -68,7 +64,7 @@ double mirror_distance(const CellFields& fields) {
   for (int k = 0; k < fields.cells[2]; ++k)
     for (int j = 0; j < fields.cells[1]; ++j)
       for (int i = 0; 2 * i < fields.cells[0]; ++i) {
-        const std::size_t here = cell(fields, i, j, k), there = cell(fields, fields.cells[0] - 1 - i, j, k);
+        const std::size_t here = fields.index(i, j, k), there = fields.index(fields.cells[0] - 1 - i, j, k);
         distance = std::max({distance, std::abs(fields.f_s[here] - fields.f_s[there]),
                              std::abs(fields.alpha[here] - fields.alpha[there])});
       }

@@ -192,7 +192,7 @@ def versions_of(charts):
 
 def older(made, now):
     """", by version 0.1.0, of an older minor version: not comparable", or ""."""
-    found = [f"{version}{versions.remark(version, now)}" for version in made if versions.remark(version, now)]
+    found = [versions.named(version, now) for version in made if versions.remark(version, now)]
     return f", by version {', '.join(found)}" if found else ""
 
 
@@ -209,7 +209,7 @@ def ablation_table(study, now=None):
         rows.append([row["part"], *cells, row["core_seconds"]])
     setting = " ".join([study["scene"], *study["set"]])
     return {"caption": f"{setting}: each part of the model removed or changed in turn, change of each metric against the full model; "
-                       f"* beyond its tolerance (granvof {study['version']}{versions.remark(study['version'], now)}, case {study['case_hash'][:8]}, {study['host']})",
+                       f"* beyond its tolerance (granvof {versions.named(study['version'], now)}, case {study['case_hash'][:8]}, {study['host']})",
             "columns": ["part"] + [metric["metric"] for metric in study["metrics"]] + ["core-s"], "rows": rows}
 
 
@@ -217,7 +217,7 @@ def advice_table(study, now=None):
     """The evidence of an advice: every configuration that was tried, in order."""
     rows = [[step["configuration"], "-" if step["error"] is None else f"{100 * step['error']:.2g} %", step["core_s_per_s"],
              step["remark"]] for step in study["steps"]]
-    return {"caption": f"advice for {study['scene']} ({study['version']}{versions.remark(study['version'], now)}): " + "; ".join(study["summary"]),
+    return {"caption": f"advice for {study['scene']} ({versions.named(study['version'], now)}): " + "; ".join(study["summary"]),
             "columns": ["configuration", "error", "core-s per s", "remark"], "rows": rows}
 
 
@@ -298,7 +298,7 @@ def made(content, now=None):
     """"s1, canary: VERSION, DATE; s2: ..."."""
     cases = {}
     for chart in content["charts"]:
-        by = ", ".join(version + versions.remark(version, now) for version in versions_of([chart]))
+        by = ", ".join(versions.named(version, now) for version in versions_of([chart]))
         cases.setdefault(f"{by}, {chart.get('date', content['date'])[:10]}", []).append(chart["case"])
     return "; ".join(f"{', '.join(of)}: {how}" for how, of in cases.items())
 

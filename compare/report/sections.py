@@ -47,7 +47,7 @@ def read(directory, now=None):
                        [figure(directory, entry) for entry in figures],
                        [{"caption": table.get("caption", ""), "columns": table["columns"], "rows": table["rows"]}
                         for table in given.get("tables", [])],
-                       ", ".join(given[key] + (versions.remark(given[key], now) if key == "commit" else "")
+                       ", ".join(versions.named(given[key], now) if key == "commit" else given[key]
                                  for key in ("commit", "date") if given.get(key)))
     except (KeyError, TypeError, AttributeError, OSError, ValueError) as error:
         raise Damaged(source, error) from error

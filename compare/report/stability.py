@@ -68,7 +68,7 @@ def map_plot(found, directory, now=None):
     axis.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.4, -0.02), ncol=3, fontsize=7)
     axis.set_title("upper to lower bar: " + ", ".join(methods) + "; tick: nominal value", loc="left", fontsize=8)
     if found.get("commit"):
-        figure.supxlabel(f"{found['commit']}{versions.remark(found['commit'], now)}, {found['date'][:10]}", fontsize=5.5, color="0.45")
+        figure.supxlabel(f"{versions.named(found['commit'], now)}, {found['date'][:10]}", fontsize=5.5, color="0.45")
     axis.set_xlim(0, 1)
     axis.set_ylim(-len(names) + 0.5, 0.5)
     axis.set_axis_off()

@@ -20,3 +20,8 @@ def remark(made, now):
     """What is to be said beside results made by the version in `made`, on a page of the minor version `now`; "" where nothing is."""
     of = minor(made)
     return NOT_COMPARABLE if of and now and of < now else ""
+
+
+def named(made, now):
+    """`made` with that remark."""
+    return made + remark(made, now)

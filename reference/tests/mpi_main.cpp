@@ -1,11 +1,10 @@
 // GoogleTest's main with MPI around it: LIGGGHTS needs MPI, and OpenFOAM in serial does not start it.
 #include <gtest/gtest.h>
-#include <mpi.h>
+
+#include "reference/demvof/beads/mpi_session.hpp"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  MPI_Init(&argc, &argv);
-  const int result = RUN_ALL_TESTS();
-  MPI_Finalize();
-  return result;
+  const demvof::MpiSession session;
+  return RUN_ALL_TESTS();
 }

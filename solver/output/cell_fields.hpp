@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace granvof {
@@ -23,6 +24,10 @@ struct CellFields {
   std::vector<double> phi;                 // colour of the solid [-]
   std::array<std::vector<double>, 3> u_s;  // solid velocity [m/s]; component 2 empty in 2D
   std::array<std::vector<double>, 3> u_c;  // velocity of the continuous phase [m/s]
+
+  std::size_t index(int i, int j, int k) const {
+    return static_cast<std::size_t>((k * cells[1] + j) * cells[0] + i);
+  }
 };
 
 // Throws std::invalid_argument naming the array whose size is not that of `fields.cells`.

@@ -219,6 +219,10 @@ void RunWriter::open_beside(const std::function<void(const fs::path&)>& open) co
   by_given_name([&] { open(locked_); });
 }
 
+fs::path RunWriter::checkpoint_path() const {
+  return directory_ / checkpoint_name;
+}
+
 std::optional<double> RunWriter::checkpoint_time() const {
   std::error_code none;
   return is_in_place() && fs::is_regular_file(locked_ / checkpoint_name, none) ? checkpoint_time_

@@ -64,7 +64,7 @@ class RunWriter {
   // it, with this end, unless it states one.
   void note_end_of_copy(const std::string& reason) noexcept;
 
-  std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.h5"; }
+  std::filesystem::path checkpoint_path() const;
   // Calls `open` with a path to the directory that this run has locked, whatever stands under its name by
   // now: for a file that another writes there. Throws what it throws, an OutputError with the name of the
   // directory.

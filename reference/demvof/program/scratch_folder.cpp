@@ -7,9 +7,9 @@
 #include <system_error>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
+#include "solver/output/open_file.hpp"
 #include "solver/output/output_error.hpp"
 
 namespace demvof {
@@ -35,7 +35,7 @@ ScratchFolder::ScratchFolder(const fs::path& path) {
     open_ = granvof::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!open_.valid() || ::access(folder.c_str(), W_OK | X_OK) != 0)
       throw granvof::OutputError("use the scratch folder", path, std::strerror(errno));
-    name_ = is_plain(folder.string()) ? folder : fs::path(fmt::format("/proc/self/fd/{}", open_.get()));
+    name_ = is_plain(folder.string()) ? folder : granvof::path_by_descriptor(open_, folder);
   } catch (const fs::filesystem_error& error) {
     remove_what_is_empty();
     throw granvof::OutputError("make the scratch folder", path, error.code().message());
