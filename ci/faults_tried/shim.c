@@ -8,7 +8,8 @@
  *   FAULT_LOCK=E       a file system without locks: asking for one fails with E
  *   FAULT_CLOCK=1      the clock of the day goes back an hour each time it is read
  *
- * Standard streams are let off. The program has one thread; a process that it makes counts on from where it was made,
+ * Standard streams are let off, and so is what is no file, such as the descriptor by which MPI wakes its thread: that
+ * takes no room, and without it the thread waits for ever. The program has one thread; a process that it makes counts on from where it was made,
  * its calls fail and are not killed: a kill is the whole program's. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -75,7 +76,8 @@ typedef ssize_t (*Pwrite)(int, const void*, size_t, off_t);
 /* How many of `size` bytes go through; -1 with errno where none does. A call that is due has `due` set. */
 static ssize_t allowed(int fd, size_t size, int* due) {
   *due = 0;
-  if (fd <= STDERR_FILENO) return (ssize_t)size;
+  struct stat what;
+  if (fd <= STDERR_FILENO || (fstat(fd, &what) == 0 && !S_ISREG(what.st_mode))) return (ssize_t)size;
   *due = is_due();
   if (bytes_left < 0 && *due) return number("FAULT_ERRNO") == EINTR ? 0 : (ssize_t)(size / 2); /* broken off: nothing yet */
   if (bytes_left < 0) return (ssize_t)size;

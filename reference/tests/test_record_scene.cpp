@@ -12,6 +12,7 @@
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_element.hpp"
 #include "reference/demvof/program/record_scene.hpp"
+#include "reference/demvof/program/scratch_folder.hpp"
 #include "reference/tests/small_case.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/series_file.hpp"
@@ -182,6 +183,29 @@ TEST(RecordScene, AScratchFolderThatCannotBeUsedIsRefusedAndNothingIsWritten) {
     EXPECT_FALSE(fs::exists(options.out)) << scratch;
     EXPECT_FALSE(fs::exists(directory.path() / "new")) << scratch;
   }
+}
+
+// What LIGGGHTS and OpenFOAM had written when one of them ended the program, or the program was killed.
+TEST(RecordScene, NoScratchFileOutlivesItsRun) {
+  const granvof::test::TemporaryDirectory directory;
+  const demvof::RecordOptions options = options_in(directory.path());
+  granvof::Scene scene = demvof::test::small({"time.end=0.002"});
+  scene.reference->bead_restitution = 2.0;
+  EXPECT_EQ(demvof::record_scene(scene, options), 1);
+  EXPECT_FALSE(fs::exists(options.scratch));
+
+  fs::create_directories(options.scratch / "demvof-killed/fluid-1-0");
+  fs::create_directory(options.scratch / "mine");
+  std::ofstream(options.scratch / "demvof-killed/gate-1.stl") << "solid";
+  {
+    const demvof::ScratchFolder living(options.scratch);
+    std::ofstream(living.name() / "beads.data") << "beads";
+    EXPECT_FALSE(fs::exists(options.scratch / "demvof-killed"));
+    EXPECT_EQ(demvof::record_scene(demvof::test::small({"time.end=0.002"}), options), 0);
+    EXPECT_TRUE(fs::exists(living.name() / "beads.data")) << "one that runs beside it";
+  }
+  fs::remove(options.scratch / "mine");
+  EXPECT_TRUE(fs::is_empty(options.scratch));
 }
 
 TEST(RecordScene, ARunDirectoryThatIsRefusedLeavesNoScratchFolder) {
