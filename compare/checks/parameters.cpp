@@ -48,6 +48,9 @@ constexpr std::array table{
                    [](const Parameters& p) { return of_text(p.column); }},
     ParameterEntry{"term", &Needs::term, [](const Parameters& p) { return p.term.has_value(); }, read_term,
                    [](const Parameters& p) { return of_text(p.term); }},
+    ParameterEntry{"scheme", &Needs::scheme, [](const Parameters& p) { return p.scheme.has_value(); },
+                   [](const TomlEntry& e, Parameters& p) { p.scheme = e.text("scheme"); },
+                   [](const Parameters& p) { return of_text(p.scheme); }},
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ struct Parameters {
   std::optional<std::string> column;     // the column of it that the metric is compared with
   std::optional<std::string> against;    // id of a second run
   std::optional<std::string> term;       // of the energy, see compare/input/shared_ledger.hpp
+  std::optional<std::string> scheme;     // numerical term of the ledger, docs/theory/energy.md
 };
 
 // Which of them a metric needs; what is not needed is not allowed. `published` goes with `column`.
@@ -31,6 +32,7 @@ struct Needs {
   bool published = false;
   bool against = false;
   bool term = false;
+  bool scheme = false;
 };
 
 struct ParameterEntry {

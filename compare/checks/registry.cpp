@@ -374,9 +374,16 @@ constexpr std::array table{
         "largest difference between the change of all energy and the sum of its parts, over the energy "
         "turned over",
         none, energy_closure},
-    MetricEntry{"energy_numerical", "-",
-                "energy lost to numerics by the end over the energy turned over; negative: made", none,
-                energy_numerical},
+    MetricEntry{"ledger_share", "-",
+                "what a scheme (a term of the ledger, or numerical: all of them) took by the end of the "
+                "energy turned over; "
+                "negative: gave",
+                Needs{.scheme = true}, ledger_share},
+    MetricEntry{"ledger_order", "-",
+                "power of the cell, or of the step where cells are the same, with which what a scheme took "
+                "vanishes, from a "
+                "coarser run to this one",
+                Needs{.against = true, .scheme = true}, ledger_order},
     MetricEntry{"energy_created", "-",
                 "energy that schemes, and solid pressure that nothing pays for, gave by the end, over what "
                 "physics dissipated and is in motion",

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "compare/input/energy_budget.hpp"
 #include "compare/metrics/conservation.hpp"
 
@@ -19,6 +21,14 @@ Measured volume_error_of(const Run& run, std::string_view column, std::string_vi
   const auto sampled = through ? std::optional(0.0) : volume_error(run.curve(column));
   if (!sampled || !counted) return {std::nullopt, "undefined: no volume in the series or in run.json"};
   return {std::max(*sampled, std::abs(*counted)), ""};
+}
+
+// How much smaller the cells of a run are than another's or, where they are the same, how many more steps it
+// took.
+double refinement_from(const Run& coarse, const Run& fine) {
+  const double of_cells = coarse.scene.grid.spacing[0] / fine.scene.grid.spacing[0];
+  if (of_cells != 1.0) return of_cells;
+  return fine.facts.number("steps").value_or(0.0) / coarse.facts.number("steps").value_or(1.0);
 }
 
 }  // namespace
@@ -60,9 +70,17 @@ Measured energy_closure(const Run& run, const Parameters&, const FindRun&) {
                   "no energy budget in the series or in run.json");
 }
 
-Measured energy_numerical(const Run& run, const Parameters&, const FindRun&) {
-  return measured(share_of("numerical", energy_budget(run), run.facts.number("energy_turnover")),
-                  "no energy budget in the series or in run.json");
+Measured ledger_share(const Run& run, const Parameters& p, const FindRun&) {
+  return measured(share_of(*p.scheme, energy_budget(run), run.facts.number("energy_turnover")),
+                  "no such term in the ledger of run.json, or no series of it");
+}
+
+Measured ledger_order(const Run& run, const Parameters& p, const FindRun& find) {
+  const Run* coarse = find(*p.against);
+  if (!coarse) return {std::nullopt, fmt::format("the run '{}' cannot be compared", *p.against)};
+  return measured(
+      order_of(*p.scheme, energy_budget(run), energy_budget(*coarse), refinement_from(*coarse, run)),
+      "no such term in both ledgers, or neither cells nor steps are smaller");
 }
 
 Measured energy_created(const Run& run, const Parameters&, const FindRun&) {

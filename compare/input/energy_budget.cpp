@@ -42,4 +42,13 @@ std::optional<double> share_of(const std::string& term, const std::map<std::stri
   return found->second.value.back() / *turnover;
 }
 
+std::optional<double> order_of(const std::string& term, const std::map<std::string, Curve>& fine,
+                               const std::map<std::string, Curve>& coarse, double refinement) {
+  const auto of_fine = fine.find(term), of_coarse = coarse.find(term);
+  if (of_fine == fine.end() || of_coarse == coarse.end() || !(refinement > 1.0)) return std::nullopt;
+  const double ratio = of_coarse->second.value.back() / of_fine->second.value.back();
+  if (!std::isfinite(ratio) || ratio == 0.0) return std::nullopt;
+  return std::log(std::abs(ratio)) / std::log(refinement);
+}
+
 }  // namespace granvof::compare

@@ -23,4 +23,9 @@ std::optional<double> closure_error(const std::map<std::string, Curve>& budget,
 std::optional<double> share_of(const std::string& term, const std::map<std::string, Curve>& budget,
                                std::optional<double> turnover);
 
+// The power of cell or step with which the last value of a term vanishes, from one run and another whose
+// cells or steps are `refinement` > 1 times as large; nothing where one of them has not the term, or it is 0.
+std::optional<double> order_of(const std::string& term, const std::map<std::string, Curve>& fine,
+                               const std::map<std::string, Curve>& coarse, double refinement);
+
 }  // namespace granvof::compare

@@ -47,6 +47,20 @@ TEST(EnergyBudgetOfARun, FollowsTheLedgerOfTheRun) {
   EXPECT_NEAR(*closure_error(energy_budget(run), 2.0), 0.2, 1e-12);
 }
 
+// Half the cells, a quarter of what the scheme took: of second order; whichever sign it has.
+TEST(EnergyBudgetOfARun, GivesTheOrderOfAScheme) {
+  const auto taken = [](double amount) {
+    return std::map<std::string, Curve>{{"scheme", {{0.0, 1.0}, {0.0, amount}}}};
+  };
+  EXPECT_DOUBLE_EQ(*order_of("scheme", taken(-0.1), taken(-0.4), 2.0), 2.0);
+  EXPECT_DOUBLE_EQ(*order_of("scheme", taken(0.1), taken(0.4), 4.0), 1.0);
+  EXPECT_DOUBLE_EQ(*order_of("scheme", taken(0.4), taken(0.1), 2.0), -2.0);
+  EXPECT_FALSE(order_of("scheme", taken(0.0), taken(0.1), 2.0));
+  EXPECT_FALSE(order_of("scheme", taken(0.1), taken(0.0), 2.0));
+  EXPECT_FALSE(order_of("scheme", taken(0.1), taken(0.1), 1.0));
+  EXPECT_FALSE(order_of("other", taken(0.1), taken(0.4), 2.0));
+}
+
 TEST(EnergyBudgetOfARun, IsUndefinedWithoutItsColumns) {
   auto run = falling(0.0);
   EXPECT_FALSE(closure_error(energy_budget(run), std::nullopt));

@@ -12,7 +12,7 @@ namespace {
 
 TEST(Parameters, WhatIsNeededIsInTheTable) {
   for (const auto needed : {&Needs::window, &Needs::at, &Needs::quiet, &Needs::level, &Needs::published,
-                            &Needs::against, &Needs::term}) {
+                            &Needs::against, &Needs::term, &Needs::scheme}) {
     Needs needs;
     needs.*needed = true;
     EXPECT_FALSE(is_complete(needs, Parameters{}));
