@@ -120,8 +120,8 @@ Measured period(const Run& run, const Parameters& p, const FindRun&) {
 }
 
 Measured level_period(const Run& run, const Parameters& p, const FindRun&) {
-  const auto found = oscillation(run.curve("liquid_height_left"), *p.window);
-  return measured(found ? std::optional(found->period) : std::nullopt, "fewer than two cycles in the window");
+  return measured(fitted_period(run.curve("liquid_height_left"), *p.window),
+                  "fewer than two cycles in the window");
 }
 
 // The place of rest is the mean over the last tenth of the run. `least` is the smallest deviation that is
@@ -284,7 +284,7 @@ constexpr std::array table{
                 immersed_share_free},
     MetricEntry{"period", "s", "period of the height of all solids, from crossings of its mean", window_only,
                 period},
-    MetricEntry{"level_period", "s", "period of the liquid's level at x = 0, from crossings of its mean",
+    MetricEntry{"level_period", "s", "period of the strongest mode of the liquid's level at x = 0",
                 window_only, level_period},
     MetricEntry{"decay_rate", "1/s",
                 "k of y = rest + A exp(-k t), y the height of all solids, rest its late mean, to half a cell "

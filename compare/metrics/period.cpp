@@ -1,6 +1,9 @@
 #include "compare/metrics/period.hpp"
 
 #include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
 
 namespace granvof::compare {
 namespace {
@@ -31,6 +34,19 @@ Crossings crossings(const Curve& curve, double mean) {
   return found;
 }
 
+// Sum of squares of what a mean, a sine and a cosine of `frequency` leave of the curve.
+double left_by(const Curve& curve, double frequency) {
+  const auto n = static_cast<Eigen::Index>(curve.size());
+  const Eigen::Map<const Eigen::ArrayXd> time(curve.time.data(), n);
+  const Eigen::Map<const Eigen::VectorXd> value(curve.value.data(), n);
+  const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * frequency * (time - time(0));
+  Eigen::MatrixX3d basis(n, 3);
+  basis.col(0).setOnes();
+  basis.col(1) = phase.cos();
+  basis.col(2) = phase.sin();
+  return (value - basis * basis.colPivHouseholderQr().solve(value)).squaredNorm();
+}
+
 }  // namespace
 
 std::optional<Oscillation> oscillation(const Curve& curve, Window window) {
@@ -55,6 +71,36 @@ std::optional<Oscillation> oscillation(const Curve& curve, Window window) {
   if (found.up.size() < 3 && found.down.size() < 3) return std::nullopt;
   return Oscillation{total / static_cast<double>(cycles), static_cast<int>(found.up.size()) - 1,
                      0.5 * (*maximum(inside) - *minimum(inside))};
+}
+
+std::optional<double> fitted_period(const Curve& curve, Window window) {
+  const Curve inside = clip(curve, window);
+  constexpr std::size_t samples_a_cycle = 4;
+  if (inside.size() < 2 * samples_a_cycle) return std::nullopt;
+  const double duration = inside.time.back() - inside.time.front();
+  const double least = 2.0 / duration;
+  // Far finer than modes that a window can tell apart, 1 / duration.
+  const double step = 0.05 / duration;
+  const auto most = static_cast<double>(inside.size() / samples_a_cycle) / duration;
+  double best = least, left = left_by(inside, least);
+  for (double frequency = least + step; frequency <= most; frequency += step) {
+    const double left_now = left_by(inside, frequency);
+    if (left_now < left) {
+      best = frequency;
+      left = left_now;
+    }
+  }
+  if (best == least || !(left < 0.5 * left_by(inside, 0.0))) return std::nullopt;
+  double lower = best - step, upper = best + step;
+  while (upper - lower > 1e-9 * best) {
+    const double third = (upper - lower) / 3.0;
+    if (left_by(inside, lower + third) < left_by(inside, upper - third)) {
+      upper -= third;
+    } else {
+      lower += third;
+    }
+  }
+  return 1.0 / (0.5 * (lower + upper));
 }
 
 }  // namespace granvof::compare

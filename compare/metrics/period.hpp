@@ -1,4 +1,4 @@
-// Period of an oscillation from its zero crossings (paper, section 4.3, Fig. 12b).
+// Period of an oscillation: from its zero crossings (paper, section 4.3, Fig. 12b), or of its strongest mode.
 #pragma once
 
 #include "compare/metrics/curve.hpp"
@@ -15,5 +15,10 @@ struct Oscillation {
 // the other side, so that ripples on a flank are not cycles. The mean is taken between the first and the last
 // upward crossing, that is over whole cycles, by repetition. Nothing for fewer than two whole cycles.
 std::optional<Oscillation> oscillation(const Curve& curve, Window window);
+
+// Period of the mean, sine and cosine that leave least of the curve: of the strongest of several modes, which
+// crossings take for one. Nothing where the window holds fewer than two of its cycles, or no mode has half of
+// the motion.
+std::optional<double> fitted_period(const Curve& curve, Window window);
 
 }  // namespace granvof::compare
