@@ -13,6 +13,18 @@ COMPARE = ROOT / "build/release/compare/granvof-compare"  # holds the run engine
 sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 
 
+def label_of(check, at):
+    """Metric of a row of results, from a check of the table and an instant or None: as metric_label() of compare/output/text.cpp."""
+    parts = [f"@{at:g}"] if at is not None else []
+    parts += [f"-{check[key]}" for key in ("term", "against", "column") if key in check]
+    return "".join([check["metric"], *parts]) + (f" ({check['label']})" if "label" in check else "")
+
+
+@pytest.fixture
+def label():
+    return label_of
+
+
 def row_of(**changed):
     row = {"id": "s1.run_out@10.DEM", "scene": "s1", "metric": "run_out@10", "value": 2.0, "unit": "-", "reference": 1.5,
            "reference_kind": "DEM", "reference_source": "reference/results/s1", "band": 0.1, "tolerance": "0.05 [-]",

@@ -133,7 +133,7 @@ def test_bad_input_is_two(root, capsys):
     assert "README.md: there are no markers" in capsys.readouterr().err
 
 
-def test_every_line_is_a_row_of_the_table_of_checks():
+def test_every_line_is_a_row_of_the_table_of_checks(label):
     """A run or a metric that is renamed must not drop out of the README unseen."""
     checks = tomllib.loads((trust_table.ROOT / "compare/checks.toml").read_text())
     table, runs = checks["check"], checks["run"]
@@ -143,10 +143,7 @@ def test_every_line_is_a_row_of_the_table_of_checks():
         at = check.get("at", [None])
         for run in [check["run"]] if isinstance(check["run"], str) else check["run"]:
             for t in at if isinstance(at, list) else [at]:
-                # as metric_label() of compare/output/text.cpp has it
-                parts = ([f"@{t:g}"] if t is not None else []) + [f"-{check[key]}" for key in ("against", "column") if key in check]
-                label = "".join([check["metric"], *parts]) + (f" ({check['label']})" if "label" in check else "")
-                there |= {(run, label, reference["kind"]) for reference in references}
+                there |= {(run, label(check, t), reference["kind"]) for reference in references}
     wanted = {(scene, metric, line.kind) for line in LINES for scene in line.scenes for metric in line.metrics}
     assert not sorted(wanted - there)
     beside = {run["id"]: run["beside"] + preset for run in runs if "beside" in run for preset in PRESETS.values()
