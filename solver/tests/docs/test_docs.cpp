@@ -16,6 +16,8 @@
 #include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/output/extract.hpp"
+#include "solver/scene/keys.hpp"
+#include "solver/scene/presets.hpp"
 #include "solver/tests/cases_directory.hpp"
 
 namespace granvof {
@@ -60,6 +62,17 @@ TEST(Docs, NamesEachOtherLawOfAList) {
   const std::string kinetic_theory = page("theory/kinetic-theory.md");
   for (const closures::ClosureFacts& model : closures::TemperatureModels::facts)
     EXPECT_NE(kinetic_theory.find(fmt::format("`{}`", model.word)), std::string::npos) << model.word;
+}
+
+TEST(Docs, ListsEveryChoiceWithItsValues) {
+  const std::string text = page("theory/choices.md");
+  for (const case_file::Choice& choice : case_file::choices()) {
+    std::string values;
+    for (const std::string& word : case_file::find_key(choice.key)->words)
+      values += fmt::format("{}`{}`", values.empty() ? "" : ", ", word);
+    const std::string line = fmt::format("| `{}` | {} | [", choice.key, values);
+    EXPECT_NE(text.find(line), std::string::npos) << "docs/theory/choices.md should have a line\n" << line;
+  }
 }
 
 }  // namespace
