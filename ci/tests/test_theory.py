@@ -89,3 +89,12 @@ def test_every_closure_is_on_a_page():
     named = [path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "solver/closures").rglob("*.hpp"))]
     assert len(named) > 40
     assert not [name for name in named if name not in linked], "closures without a section in docs/theory"
+
+
+@pytest.mark.parametrize("header", [path.relative_to(ROOT).as_posix() for path in SOURCES
+                                    if path.suffix == ".hpp" and path.parts[len(ROOT.parts)] == "solver" and "tests" not in path.parts])
+def test_a_header_leads_to_the_pages_of_the_equations_it_cites(header):
+    where = sections()
+    pages = {where[number][0].relative_to(ROOT).as_posix() for number in cited(ROOT / header) if number in where}
+    said = comments(ROOT / header)
+    assert not [page for page in sorted(pages) if page not in said]

@@ -13,6 +13,7 @@
 // A rearrangement takes d_s sqrt(rho_s / P) and stirs grains anew: drag cannot take more than their energy in
 // that time. With this bound it adds at most c^2 f_s = 0.06 to the friction coefficient, in viscous liquids
 // too, where grains stop between rearrangements; in s2 it bears on loads below 30 Pa.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // What a scene chose of the laws of collisions: g0, how collisions of dense grains are correlated, and what
 // flying grains carry.
+// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Coulomb friction of enduring contacts, regularised, eq (17).
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // Pressure of enduring contacts: elastic part (13), dense-flow pressure (15).
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include <algorithm>

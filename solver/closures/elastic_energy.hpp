@@ -1,4 +1,5 @@
 // Energy stored by the elastic contact pressure (13), tabulated.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 // in kinetic_transport/.
 //
 // All take f_s in [0, f_s,max], Theta >= 0 [m2/s2], e in [0, 1], the caller's g0 (eq (19)), and SI units.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // Restitution coefficient of grains that collide: in a liquid, eq (18), and with friction.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 // out, is as in Montella et al., J. Fluid Mech. 925 (2021) A13; there dilatancy acts by that pressure alone.
 // The fall of the packing with the rate of shear is P_s^D (15), which stays, or, in viscous liquids too, that
 // of f_c itself: critical_packing/by_rate.hpp.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Sub-grid viscosity of the continuous phase (Smagorinsky), eq (10).
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // Total solid pressure P_s = P_s^K + P_s^ES + P_s^EF of a cell, eqs (11)-(15), as a function of f_s alone.
 //
 // Theta and e are those of the old level; the implicit step needs P_s and its slope at any trial f_s.
+// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/closures/collisions.hpp"

@@ -1,4 +1,5 @@
 // The grains of a scene and their contacts.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 namespace granvof {

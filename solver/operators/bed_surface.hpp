@@ -25,6 +25,7 @@
 // column than in the next (0.06 in f_s after four minutes).
 //
 // Own derivation; it vanishes with the grid, like the cells it is about.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include <algorithm>

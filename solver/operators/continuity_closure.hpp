@@ -9,6 +9,7 @@
 // column is the first. A closed gate is not passed: the fluid on either side of it keeps its own balance.
 //
 // The velocities stay as they are: their projection is as good as the tolerance says.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/grid/boundary.hpp"

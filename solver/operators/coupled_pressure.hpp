@@ -8,6 +8,7 @@
 // follows from the law. With explicit contact pressure P_s is
 // that of the old f_s and only continuity is solved for: the comparison that shows what the coupling is
 // worth.
+// Equations: docs/theory/balances.md, docs/theory/contact.md.
 #pragma once
 
 #include <string>

@@ -11,6 +11,7 @@
 // stress of no-slip and Coulomb walls is part of the operator. Known problem: with the full S of (17)
 // friction carries normal load: the base of a bed at rest shows P_s = 270 Pa for a weight of 409 Pa; sigma_yy
 // = P_s - tau_yy is what balances the weight.
+// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <optional>

@@ -6,6 +6,7 @@
 // mean motion loses is what their fluctuation gains. (With production from the new strain and the new Theta,
 // and stress from the old one, collisions dissipated 127 times the fall of a dry column on cells of 0.4 grain
 // diameters.)
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <optional>

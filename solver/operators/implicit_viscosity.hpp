@@ -11,6 +11,7 @@
 // cases/sedimentation: odd-even velocities of 1 cm/s). A flow that the explicit terms hold steady stays as it
 // is. The transposed gradient stays explicit: it is never larger than what D damps. One component at a time,
 // by CG with multigrid.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include <vector>

@@ -6,6 +6,7 @@
 // leave the bounds. Where the interface moves more than a fifth of a cell a step, the step is divided. Known
 // problem: the shape error follows the Courant number; a disc advected diagonally on 32 cells across the box
 // errs by 0.26 of its area at 0.2 a direction, 0.10 at 0.1, 0.06 at 0.05.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
 // Density and viscosity of the continuous phase and the inertia of both phases on faces.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Explicit part of both momentum balances, (5) and (6): convection, gravity, and what only the fluid feels
 // explicitly, its viscosity and its old pressure gradient. The solid's enters the implicit step
 // (solid_momentum.hpp), or the bed would hang on its own viscosity.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/operators/aperture.hpp"

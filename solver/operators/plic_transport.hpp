@@ -8,6 +8,7 @@
 // no direction is preferred from step to step, and a run needs no memory of the last order.
 // Sources: Youngs 1982 (in Numerical Methods for Fluid Dynamics, Academic Press); Weymouth & Yue 2010, J.
 // Comput. Phys. 229, 2853, for what split sweeps owe to conservation; Strang 1968, SIAM J. Numer. Anal. 5.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/grid/boundary.hpp"

@@ -1,4 +1,5 @@
 // Level of the fluid pressure in a tank without an open side.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/operators/mixture.hpp"

@@ -1,4 +1,5 @@
 // Cell values of the solid's constitutive law at the old level, eqs (11)-(20).
+// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/closures/solid_pressure.hpp"

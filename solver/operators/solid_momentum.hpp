@@ -3,6 +3,7 @@
 //   (m_s + beta_eff) u_s - div(stress of u_s) = m_s u_s* + beta_eff u_c* - f_s grad P_c - grad P_s,
 //   beta_eff = beta m_c / (m_c + beta), m = (phase mass) / dt, * the predictors,
 // and then u_c = (m_c u_c* + beta u_s) / (m_c + beta).
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/operators/friction.hpp"

@@ -1,4 +1,5 @@
 // Solid volume balance (1), and what the grains carry along (25), from the fluxes of the pressure step.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/grid/boundary.hpp"

@@ -1,4 +1,5 @@
 // Explicit viscous acceleration of the continuous phase: the diffusion term of (5) with LES (10).
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include "solver/grid/boundary.hpp"

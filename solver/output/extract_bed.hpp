@@ -3,6 +3,7 @@
 // Immersion depth of a floating bed: h = H/2 + (y_i - y_c), with y upward. (The paper prints H/2 + (y_c -
 // y_i), which would make a bed that sinks deeper less immersed.) It is formed from the averages of these
 // columns, not here.
+// Equations: docs/theory/metrics.md.
 #pragma once
 
 #include "solver/output/cell_fields.hpp"

@@ -7,6 +7,7 @@
 // and forces: its physical work, and apart from it what its scheme adds. What all of them together do not
 // make of the change that is stored is the residual: momentum (friction solve, drag, pressure response) or
 // continuity that was not solved, and work that an operator misstates. See docs/theory/energy.md.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include "solver/closures/elastic_energy.hpp"

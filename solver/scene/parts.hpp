@@ -2,6 +2,7 @@
 // time step, terms of the energy ledger, monitors and alarms, equations and a page. Whoever declares one of
 // these names its part there, once; what a part has is what names it, and a thing without a part fails a
 // test.
+// Equations: docs/theory/balances.md, docs/theory/contact.md.
 #pragma once
 
 #include <array>

@@ -2,6 +2,8 @@
 //
 // The solver, the DEM-VOF reference and the comparison all read the same file through load_scene().
 // Directions: 0 = x along the tank, 1 = y up, 2 = z across the tank.
+// Equations: docs/theory/balances.md, docs/theory/contact.md,
+//   docs/theory/drag.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <array>

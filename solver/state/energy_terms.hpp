@@ -1,4 +1,5 @@
 // The terms of the energy budget: the one table of what each is called, means, and where it is measured.
+// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <array>

@@ -2,6 +2,7 @@
 //
 // beta_c = alpha beta_l + (1 - alpha) beta_g (below eq (8)). A law is a function object of one fluid,
 // law(f_s, slip, fluid, d_s) -> beta [kg/m3 s]; DragLaw::with() picks it once, outside the loop over cells.
+// Equations: docs/theory/drag.md.
 #pragma once
 
 #include <algorithm>

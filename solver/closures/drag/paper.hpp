@@ -4,6 +4,7 @@
 // at f_c = 0.8 (a factor 1.44 at Re -> 0); they are blended linearly over f_c in [0.78, 0.82]. As printed,
 // Wen & Yu's f_c^-1.65 stands with Re of the slip itself, not of f_c times the slip as in Wen & Yu (1966):
 // slow suspensions settle with the exponent 3.65, where Richardson & Zaki have 4.65.
+// Equations: docs/theory/drag.md.
 #pragma once
 
 #include <cmath>

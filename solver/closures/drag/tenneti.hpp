@@ -3,6 +3,7 @@
 //
 // From particle-resolved simulations of random arrays, f_s 0.1 to 0.5, Re 0.01 to 300. Their force holds the
 // mean pressure gradient's part too, which (5), (6) carry as f_s grad P_c: f_c times their F is the drag.
+// Equations: docs/theory/balances.md.
 #pragma once
 
 #include <cmath>

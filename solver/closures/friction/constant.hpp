@@ -1,4 +1,5 @@
 // Friction coefficient of (17): eta_s = tan(theta_s), at any rate of shear.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include "solver/closures/friction/sheared_contacts.hpp"

@@ -1,5 +1,6 @@
 // The friction coefficients of (17) that model.friction_law chooses from. The first is the paper's. Each is
 //   coefficient(ShearedContacts, Solid, Contact) -> [-].
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include "solver/closures/friction/constant.hpp"

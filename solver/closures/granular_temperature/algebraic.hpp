@@ -1,4 +1,5 @@
 // Theta in steady balance in every cell by itself: what of (7) makes it equals what takes it.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/model/choices.hpp"

@@ -1,6 +1,7 @@
 // What of (7) is solved, that model.granular_temperature chooses from. The first is the paper's. Each says
 //   agitates: grains have a Theta at all,
 //   is_transported: it is carried and conducted, and changes in time; else in steady balance.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/closures/granular_temperature/algebraic.hpp"

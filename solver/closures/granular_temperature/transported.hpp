@@ -1,4 +1,5 @@
 // Theta by all of (7): carried with the grains, conducted, made and lost.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/model/choices.hpp"

@@ -1,4 +1,5 @@
 // What collisions hand over of momentum and heat: (20) and (22).
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/model/choices.hpp"

@@ -8,6 +8,7 @@
 // the first terms are (20) and (22), and neither is let fall below those, which the second terms do for
 // inelastic grains. Limits: both grow as 1 / (f_s g0) for dilute grains, so that f_s mu_s^K vanishes as f_s
 // and not as f_s^2.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <algorithm>

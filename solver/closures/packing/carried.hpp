@@ -1,5 +1,6 @@
 // Grains touch at the packing of their bed, which they carry along: where (13) bears what lies on them at the
 // start. Own.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include "solver/model/choices.hpp"

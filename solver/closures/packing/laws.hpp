@@ -2,6 +2,7 @@
 // has
 //   is_carried: it is a field that grains take along, and a bed starts at rest,
 //   at_start(bears, Contact) -> [-] of a bed, with bears() -> [-] that at which (13) bears what lies on it.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include "solver/closures/packing/carried.hpp"

@@ -1,4 +1,5 @@
 // Grains touch at f_s,min everywhere and always: the paper's.
+// Equations: docs/theory/contact.md.
 #pragma once
 
 #include "solver/model/choices.hpp"

@@ -5,6 +5,7 @@
 // spheres, and what they do near jamming at f_s,max (they give f_s,max = 0.636 for smooth grains). With it
 // the wall-normal balance of sheared smooth spheres (Vescovi et al., Phys. Fluids 26 (2014) 053305), f Theta
 // (1 + 2 (1 + e) f g0) constant, holds to 11 %; with (19) it is off by a factor of 2.9.
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Radial distribution function at contact, eq (19).
+// Equations: docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <algorithm>
