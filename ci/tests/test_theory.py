@@ -98,3 +98,29 @@ def test_a_header_leads_to_the_pages_of_the_equations_it_cites(header):
     pages = {where[number][0].relative_to(ROOT).as_posix() for number in cited(ROOT / header) if number in where}
     said = comments(ROOT / header)
     assert not [page for page in sorted(pages) if page not in said]
+
+
+# A word of which the docs have several meanings (README.md, "Words") -> the names of the code that may hold it.
+WORDS = {
+    "dilatancy": re.compile(r"shear_?dilatancy|dilatancy_(slope|friction|tangent)|largest_dilatancy_tangent", re.IGNORECASE),
+    "solid_flux": re.compile(r"(?!)"),
+}
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_a_word_has_one_meaning_in_the_code(word):
+    """Names alone: keys of the case file and columns of output, which are texts, keep theirs."""
+    found = set()
+    for path in SOURCES:
+        if "tests" not in path.parts:
+            code = re.sub(r"//[^\n]*|\"[^\"\n]*\"", "", path.read_text(encoding="utf-8"))
+            found |= {(path.relative_to(ROOT).as_posix(), name) for name in re.findall(r"\w+", code) if word in name.lower()}
+    assert not [(path, name) for path, name in sorted(found) if not WORDS[word].fullmatch(name)]
+
+
+def test_every_key_with_such_a_word_is_explained():
+    keys = {key for path in (ROOT / "solver/scene").glob("*.cpp")
+            for key in re.findall(r"\"([a-z_]+\.[a-z_]+)\"", path.read_text(encoding="utf-8")) if any(word in key for word in WORDS)}
+    words = section_text(THEORY / "README.md", "Words")
+    assert len(keys) == 8
+    assert not [key for key in sorted(keys) if f"`{key}`" not in words]

@@ -121,8 +121,8 @@ double elastic(const Contact& c, double f, double touch) {
 double dense(const Scene& scene, double f, double theta, double e) {
   const Contact& c = scene.contact;
   const double f_s0 = c.dense_solid_fraction + touching(scene, f) - c.solid_fraction_min;
-  const double bracket = c.dilatancy_factor * f * f_s0 / std::max(f_s0 - f, 0.005);
-  return 15.0 * scene.solid.density * theta * (1.0 - e) * std::pow(bracket, 2.0 / c.dilatancy_exponent);
+  const double bracket = c.flow_law_factor * f * f_s0 / std::max(f_s0 - f, 0.005);
+  return 15.0 * scene.solid.density * theta * (1.0 - e) * std::pow(bracket, 2.0 / c.flow_law_exponent);
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   even.drag = 3.0 * beta * even.theta;
   const double kinetic = solid.density * f * even.theta * (1.0 + 2.0 * (1.0 + e) * f * g0);  // (11)
   double borne = elastic(scene.contact, f, touching(scene, f));
-  if (model.dilatancy_pressure) borne += std::max(dense(scene, f, even.theta, e) - kinetic, 0.0);  // (14)
+  if (model.dense_excess) borne += std::max(dense(scene, f, even.theta, e) - kinetic, 0.0);  // (14)
   if (model.viscous_contact_pressure)
     borne += std::pow(f / (scene.contact.solid_fraction_max - f), 2) * scene.liquid.viscosity * shear;
   even.pressure = kinetic + borne;

@@ -49,8 +49,8 @@ inline PressureAndSlope dense_pressure(double f_s, double theta, double e, doubl
   const double f_s0 = c.dense_solid_fraction + (packing - c.solid_fraction_min);
   const double gap = std::max(f_s0 - f_s, dense_pressure_cap);
   const bool capped = f_s0 - f_s <= dense_pressure_cap;
-  const double power = 2.0 / c.dilatancy_exponent;
-  const double bracket = c.dilatancy_factor * f_s * f_s0 / gap;
+  const double power = 2.0 / c.flow_law_exponent;
+  const double bracket = c.flow_law_factor * f_s * f_s0 / gap;
   const double value = 15.0 * rho_s * theta * (1.0 - e) * std::pow(bracket, power);
   const double log_slope = power * (1.0 / f_s + (capped ? 0.0 : 1.0 / gap));
   return {value, value * log_slope};

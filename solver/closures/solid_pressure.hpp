@@ -11,20 +11,20 @@
 
 namespace granvof::closures {
 
-// What is the same in all cells of a scene, which makes it once (TimeStep). With `dilatancy` P_s^EF =
+// What is the same in all cells of a scene, which makes it once (TimeStep). With `dense_excess` P_s^EF =
 // max(P_s^D - P_s^K, 0) of (14) is included.
 struct SolidLaw {
   double rho_s = 0.0;  // [kg/m3]
   Contact contact;
-  bool dilatancy = true;
+  bool dense_excess = true;
   Collisions collisions;
 
-  SolidLaw(double density, const Contact& c, bool with_dilatancy)
-      : rho_s(density), contact(c), dilatancy(with_dilatancy), collisions(c) {}
+  SolidLaw(double density, const Contact& c, bool with_dense_excess)
+      : rho_s(density), contact(c), dense_excess(with_dense_excess), collisions(c) {}
   explicit SolidLaw(const Scene& scene)
       : rho_s(scene.solid.density),
         contact(scene.contact),
-        dilatancy(scene.model.dilatancy_pressure),
+        dense_excess(scene.model.dense_excess),
         collisions(scene) {}
 };
 
@@ -61,7 +61,7 @@ inline PressureAndSlope flow_pressure(double f_s, const GrainsOfCell& cell, cons
         law.rho_s * cell.theta *
             (1.0 + 2.0 * (1.0 + e) * f_s * (2.0 * g0 + f_s * law.collisions.g0_slope(f_s)))};
     if (kinetic.value > flow.value) flow = kinetic;
-    if (law.dilatancy) {
+    if (law.dense_excess) {
       const PressureAndSlope dense = dense_pressure(f_s, cell, law);
       if (dense.value > flow.value) flow = dense;
     }
@@ -89,7 +89,7 @@ inline PressureAndSlope solid_pressure(double f_s, const GrainsOfCell& cell, con
 inline double enduring_pressure(double f_s, const GrainsOfCell& cell, const SolidLaw& law) {
   double borne = cell.resting;
   if (cell.theta > 0.0) {
-    if (law.dilatancy) borne = std::max(borne, dense_pressure(f_s, cell, law).value);
+    if (law.dense_excess) borne = std::max(borne, dense_pressure(f_s, cell, law).value);
     const double kinetic = kinetic_pressure(f_s, cell.theta, cell.e, law.collisions.g0(f_s), law.rho_s);
     borne = std::max(borne - kinetic, 0.0);
   }

@@ -17,8 +17,8 @@ struct Solid {
 struct Contact {
   double stiffness = 1e8;              // K [Pa]
   double exponent = 1.5;               // chi [-]
-  double dilatancy_factor = 0.28;      // a' [-]
-  double dilatancy_exponent = 0.58;    // delta [-]
+  double flow_law_factor = 0.28;       // a' of the flow law in (15) [-]
+  double flow_law_exponent = 0.58;     // delta of it [-]
   double dense_solid_fraction = 0.60;  // f_s0 of (15) [-]
   double solid_fraction_min = 0.57;    // f_s,min, random loose packing [-]
   double solid_fraction_max = 0.63;    // f_s,max [-]
@@ -28,7 +28,7 @@ struct Contact {
   double stop_length = 1.65;           // L of h_stop in grain diameters, likewise [-]
   double critical_solid_fraction = 0.582;  // f_c, packing under slow shear: glass beads, Pailha 2009 [-]
   double dilatancy_slope = 4.09;           // K_psi = d tan(psi) / d f_p, likewise [-]
-  double dilatancy_rate = 1.0;    // a of the critical packing by rate of shear: Boyer et al. 2011 [-]
+  double loosening_factor = 1.0;  // a of the critical packing by rate of shear: Boyer et al. 2011 [-]
   double viscous_number = 0.005;  // I_v at which mu(I_v) is half way to mu_2: Boyer et al. 2011 [-]
   bool operator==(const Contact&) const = default;
 };

@@ -32,7 +32,7 @@ CoupledPressure::CoupledPressure(const Grid& grid, const Scene& scene, const Bou
       law_(law),
       load_(scales_of(scene).pressure),
       solver_(grid.cells, grid.h),
-      fraction_(scene.numerics.solid_flux),
+      fraction_(scene.numerics.transport_scheme),
       us_by_pc_(grid),
       us_by_ps_(grid),
       uc_by_pc_(grid),

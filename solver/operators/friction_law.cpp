@@ -14,7 +14,7 @@ namespace {
 struct Contacts {
   int count = 0;
   double pressure = 0.0;        // P_s^E [Pa]
-  double dilatancy = 0.0;       // tan(psi) [-]
+  double tan_psi = 0.0;         // tan(psi) [-]
   double least = 0.0;           // coefficient of a layer that stops [-]
   double drag = 0.0;            // beta on the agitation [kg/m3 s]
   double fluid = 0.0;           // mu_c between the grains [Pa s]
@@ -85,17 +85,16 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     const double of_law = friction.with([&](auto law) {
       return law.coefficient({pressure, norm, mu_c}, grains, contact);
     });
-    double dilatancy = share * sum.dilatancy;
+    double tan_psi = share * sum.tan_psi;
     critical.with([&](auto law) {
       if constexpr (decltype(law)::depends_on_rate) {
         if (!dilates) return;
         const double mixed =
             closures::mixed_inertial_number(2.0 * norm, pressure, grains.density, grains.diameter, mu_c);
-        dilatancy +=
-            contact.dilatancy_slope * (contact.critical_solid_fraction - law.packing(mixed, contact));
+        tan_psi += contact.dilatancy_slope * (contact.critical_solid_fraction - law.packing(mixed, contact));
       }
     });
-    double coefficient = std::max(std::max(of_law, share * sum.least) + dilatancy, 0.0);
+    double coefficient = std::max(std::max(of_law, share * sum.least) + tan_psi, 0.0);
     if (sum.drag > 0.0)
       coefficient +=
           closures::agitation_friction(share * sum.drag, pressure, norm, grains.density, grains.diameter);
@@ -150,7 +149,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
           if (pressure <= 0.0) continue;
           ++sum.count;
           sum.pressure += pressure;
-          sum.dilatancy += psi[a];
+          sum.tan_psi += psi[a];
           sum.least += stop[a];
           sum.drag += beta[a];
           if (fluid) sum.fluid += fluid[a];

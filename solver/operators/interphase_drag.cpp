@@ -37,7 +37,7 @@ void InterphaseDrag::fill(Law law, const Boundary& boundary, const State& now, c
     const std::ptrdiff_t s = grid_.stride(d);
     const double* own = slip_[d].data();
     const double* f = inertia.f_s[d].data();
-    const bool hindered_by_receiver = closures::is_of_second_order(scene_.numerics.solid_flux);
+    const bool hindered_by_receiver = closures::is_of_second_order(scene_.numerics.transport_scheme);
     if (hindered_by_receiver)
       fraction_.face_values(grid_, boundary.walls(), now.f_s, slip_[d], d, 0.0, grid_.inner_faces(d),
                             hindering_);

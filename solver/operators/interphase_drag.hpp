@@ -23,7 +23,7 @@ class InterphaseDrag {
   InterphaseDrag(const Grid& grid, const Scene& scene)
       : grid_(grid),
         scene_(scene),
-        fraction_(scene.numerics.solid_flux),
+        fraction_(scene.numerics.transport_scheme),
         slip_(grid),
         hindering_(grid),
         beta_(grid),

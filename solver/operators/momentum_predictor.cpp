@@ -12,7 +12,7 @@ MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const
     : grid_(grid),
       scene_(scene),
       boundary_(boundary),
-      limited_(closures::is_of_second_order(scene.numerics.solid_flux)),
+      limited_(closures::is_of_second_order(scene.numerics.transport_scheme)),
       solid_(grid),
       fluid_(grid),
       convective_(grid) {}

@@ -93,7 +93,7 @@ std::vector<Idle> all_idle() {
        has_agitation,
        without + "model.granular_temperature and model.kinetic_viscosity"},
       {{"contact.dilatancy_factor", "contact.dilatancy_exponent", "contact.dense_solid_fraction"},
-       both(model(&Model::dilatancy_pressure), has_agitation),
+       both(model(&Model::dense_excess), has_agitation),
        without + "model.dilatancy_pressure, model.granular_temperature and model.kinetic_viscosity"},
       {{"model.friction_law", "model.thin_layer_arrest"}, friction, without + "model.contact_friction"},
       {{"model.friction_law"},

@@ -44,16 +44,16 @@ inline std::string text_of(const Usual& usual, const std::string& unit) {
 }
 
 // A value against a range, either of which the scene may decide.
-template <class Value, class Range, class Reason>
-Row row(const std::string& key, const std::string& unit, Value value, Range range, Reason reason) {
+template <class Value, class Expected, class Reason>
+Row row(const std::string& key, const std::string& unit, Value value, Expected expected, Reason reason) {
   return {key, [=](const Scene& scene) -> std::optional<Implausible> {
             const Number x = value(scene);
             if (!x) return std::nullopt;
             Usual usual;
-            if constexpr (std::is_same_v<Range, Usual>) {
-              usual = range;
+            if constexpr (std::is_same_v<Expected, Usual>) {
+              usual = expected;
             } else {
-              usual = range(scene);
+              usual = expected(scene);
             }
             if (*x >= usual.lower && *x <= usual.upper) return std::nullopt;
             std::string why;

@@ -74,7 +74,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.outflow = w.potential_out + w.kinetic_out + w.granular_out - w.side_pressure - w.driving -
               dt * (trace.viscous.sides + stress.sides);
   t.walls = dt * (trace.viscous.walls + stress.walls);
-  t.dilatancy = work_of_flow_pressure(dt, now, next, trace) - granular.pressure;
+  t.dense_excess = work_of_flow_pressure(dt, now, next, trace) - granular.pressure;
   t.shear_dilatancy = t.elastic - trace.carried;
 
   t.numerical_time = w.step;

@@ -15,7 +15,7 @@ const Field& EnergyBudget::fraction_of_law(const State& now, const State& next) 
   return scene_.numerics.contact_pressure == ContactPressure::implicit ? next.f_s : now.f_s;
 }
 
-// What Theta does not pay of it is dilatancy of the ledger.
+// What Theta does not pay of it is `dense_excess` of the ledger.
 double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const State& next,
                                            const StepTrace& trace) const {
   const double *f = fraction_of_law(now, next).data(), *theta = now.theta.data(),

@@ -151,7 +151,7 @@ std::vector<Key> numerics_keys() {
                 "2e-7 dt_max"),
       choice(
           parts::momentum, "numerics.solid_flux", words_of<closures::SlopeLimiters>(),
-          MEMBER(scene.numerics.solid_flux),
+          MEMBER(scene.numerics.transport_scheme),
           "Flux of f_s and convection of both momenta: " + sources_of<closures::SlopeLimiters>() +
               "; the latter two of second order, bounded; that of a gas over a liquid stays of first order."),
       // Which grains bear load is physics, whatever table it stands in.

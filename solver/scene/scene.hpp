@@ -130,7 +130,7 @@ struct Model {
   bool les = true;                        // eq (10)
   TemperatureModel granular_temperature;  // eq (7)
   bool pressure_work = true;              // -P_s^K div u_s in (7), see the corrections of (7)
-  bool dilatancy_pressure = true;         // P_s^EF, eq (14)
+  bool dense_excess = true;               // P_s^EF, eq (14)
   bool kinetic_viscosity = true;          // mu_s^K and zeta_s^K, eqs (20), (21)
   RadialDistribution radial_distribution;
   KineticTransport kinetic_transport;
@@ -170,10 +170,10 @@ enum class InterfaceScheme { cicsam, plic, upwind };
 enum class BedSurface { whole_cells, part_cells };
 
 struct Numerics {
-  double cfl = 0.4;         // convective Courant number of the step, in (0, 0.9]
-  double dt_max = 5e-3;     // [s]
-  double dt_min = 1e-9;     // a refused step that would be shorter ends the run [s]
-  SlopeLimiter solid_flux;  // of f_s; one of second order makes both momenta so, by van Leer's
+  double cfl = 0.4;               // convective Courant number of the step, in (0, 0.9]
+  double dt_max = 5e-3;           // [s]
+  double dt_min = 1e-9;           // a refused step that would be shorter ends the run [s]
+  SlopeLimiter transport_scheme;  // of f_s; of second order it makes both momenta so, by van Leer's
   BedSurface bed_surface = BedSurface::whole_cells;
   InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
   ContactPressure contact_pressure = ContactPressure::implicit;

@@ -14,14 +14,14 @@ namespace granvof {
 // other terms add up over the steps. Every term is measured by itself, from the fluxes and forces of the
 // operator it belongs to; none is what the others leave, but the residual:
 //   residual = change of (kinetic + potential + granular + elastic)
-//              - walls - dilatancy - shear_dilatancy + outflow + drag + friction + viscosity + collisions
+//              - walls - dense_excess - shear_dilatancy + outflow + drag + friction + viscosity + collisions
 //              + sum(numerical).
 // A loss is positive when the flow loses energy by it. Numerical terms are what a scheme does beside the
 // physical work of its operator; see energy_terms below and docs/theory/energy.md.
 struct EnergyTerms {
   double kinetic = 0.0, potential = 0.0, granular = 0.0, elastic = 0.0;
   double drag = 0.0, friction = 0.0, viscosity = 0.0, collisions = 0.0, outflow = 0.0;
-  double walls = 0.0, dilatancy = 0.0, shear_dilatancy = 0.0;
+  double walls = 0.0, dense_excess = 0.0, shear_dilatancy = 0.0;
   double numerical_time = 0.0, numerical_momentum = 0.0, numerical_solid = 0.0, numerical_fluid = 0.0;
   double numerical_viscosity = 0.0, numerical_stress = 0.0, numerical_elastic = 0.0;
   double numerical_granular = 0.0;
@@ -103,7 +103,7 @@ inline constexpr std::array energy_terms{
                "solver/run/energy_faces.cpp"},
     EnergyTerm{"gained_walls", &EnergyTerms::walls, parts::walls, EnergyKind::outside, -1, false,
                "moving walls", "given by moving walls so far", "solver/operators/stress_power.hpp"},
-    EnergyTerm{"gained_dilatancy", &EnergyTerms::dilatancy, parts::solid_pressure, EnergyKind::outside, -1,
+    EnergyTerm{"gained_dilatancy", &EnergyTerms::dense_excess, parts::solid_pressure, EnergyKind::outside, -1,
                false, "uncharged solid pressure",
                "work of the solid pressure so far that nothing pays for: of P_s^EF (14), which (7) does not "
                "charge to Theta",
@@ -180,7 +180,7 @@ inline double EnergyTerms::numerical_magnitude() const {
 }
 
 inline double EnergyTerms::created() const {
-  double sum = dilatancy > 0.0 ? dilatancy : 0.0;
+  double sum = dense_excess > 0.0 ? dense_excess : 0.0;
   for (const EnergyTerm& term : energy_terms)
     if (term.kind == EnergyKind::numerical && this->*term.value < 0.0) sum -= this->*term.value;
   return sum;

@@ -15,7 +15,7 @@ struct CriticalPackingByRate {
 
   // [-]; J = mixed_number >= 0 of shear_dilatancy.hpp. Limits: f_c for slow shear.
   static double packing(double mixed_number, const Contact& contact) {
-    return contact.critical_solid_fraction / (1.0 + contact.dilatancy_rate * std::sqrt(mixed_number));
+    return contact.critical_solid_fraction / (1.0 + contact.loosening_factor * std::sqrt(mixed_number));
   }
 };
 

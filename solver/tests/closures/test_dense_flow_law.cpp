@@ -47,9 +47,8 @@ double steady_strain(const State& s, double printed_factor) {
 
 // P [Pa] at which the flow law gives the packing f_s at the strain ||S||.
 double pressure_of_flow_law(double f_s, double strain) {
-  const double inertial_number =
-      std::pow((1.0 / f_s - 1.0 / paper.dense_solid_fraction) / paper.dilatancy_factor,
-               1.0 / paper.dilatancy_exponent);
+  const double inertial_number = std::pow(
+      (1.0 / f_s - 1.0 / paper.dense_solid_fraction) / paper.flow_law_factor, 1.0 / paper.flow_law_exponent);
   const double root = 2.0 * d_s * strain / inertial_number;
   return rho_s * root * root;
 }
@@ -58,7 +57,7 @@ double pressure_of_flow_law(double f_s, double strain) {
 double bracket(const State& s) {
   const double f0 = paper.dense_solid_fraction;
   return rho_s * s.theta * (1.0 - s.e) *
-         std::pow(paper.dilatancy_factor * s.f_s * f0 / (f0 - s.f_s), 2.0 / paper.dilatancy_exponent);
+         std::pow(paper.flow_law_factor * s.f_s * f0 / (f0 - s.f_s), 2.0 / paper.flow_law_exponent);
 }
 
 const State states[] = {{0.45, 1e-4, 0.8}, {0.55, 1e-2, 0.3}, {0.59, 1e-6, 0.0}, {0.57, 1.0, 0.95}};

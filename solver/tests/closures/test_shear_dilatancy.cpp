@@ -55,7 +55,7 @@ TEST(ShearDilatancy, ContactLawsMoveWithThePacking) {
                 elastic_pressure(f, beads).value / f, 1e-9 * elastic_pressure(f, beads).value);
   }
   EXPECT_EQ(elastic_pressure(0.599, beads, 0.60).value, 0.0);
-  const double power = 2.0 / beads.dilatancy_exponent;
+  const double power = 2.0 / beads.flow_law_exponent;
   const auto per_fractions = [&](double f, double packing) {
     const double f_s0 = beads.dense_solid_fraction + packing - beads.solid_fraction_min;
     return dense_pressure(f, theta, e, rho_s, beads, packing).value / std::pow(f * f_s0, power);

@@ -47,10 +47,11 @@ TEST(SolidPressure, DenseFlowPressureTakesOverInADenseBed) {
 }
 
 TEST(SolidPressure, EnduringPartIsWhatKineticTheoryLeaves) {
-  for (const bool dilatancy : {true, false}) {
+  for (const bool dense_excess : {true, false}) {
     for (double f = 0.01; f < 0.66; f += 0.01) {
-      const double total = solid_pressure(f, theta, e, rho_s, paper, dilatancy).value;
-      EXPECT_NEAR(enduring_pressure(f, theta, e, rho_s, paper, dilatancy), total - kinetic(f), 1e-12 * total)
+      const double total = solid_pressure(f, theta, e, rho_s, paper, dense_excess).value;
+      EXPECT_NEAR(enduring_pressure(f, theta, e, rho_s, paper, dense_excess), total - kinetic(f),
+                  1e-12 * total)
           << f;
     }
   }
@@ -84,14 +85,14 @@ TEST(SolidPressure, RestingWeightIsAThirdClaimant) {
 }
 
 TEST(SolidPressure, SlopeIsTheDerivative) {
-  for (const bool dilatancy : {true, false}) {
-    const auto pressure = [dilatancy](double f) {
-      return solid_pressure(f, theta, e, rho_s, paper, dilatancy).value;
+  for (const bool dense_excess : {true, false}) {
+    const auto pressure = [dense_excess](double f) {
+      return solid_pressure(f, theta, e, rho_s, paper, dense_excess).value;
     };
     for (const double f : {0.1, 0.3, 0.5, 0.56, 0.575, 0.59, 0.6, 0.61, 0.625, 0.64}) {
       const double expected = test::derivative(pressure, f, 1e-5);
-      EXPECT_NEAR(solid_pressure(f, theta, e, rho_s, paper, dilatancy).slope, expected, 1e-5 * expected)
-          << f << (dilatancy ? " with" : " without") << " dilatancy pressure";
+      EXPECT_NEAR(solid_pressure(f, theta, e, rho_s, paper, dense_excess).slope, expected, 1e-5 * expected)
+          << f << (dense_excess ? " with" : " without") << " dense-flow excess";
     }
   }
 }
@@ -107,10 +108,10 @@ TEST(SolidPressure, OfColdGrainsApartIsNone) {
 }
 
 TEST(SolidPressure, IsContinuousAndDoesNotFall) {
-  for (const bool dilatancy : {true, false}) {
+  for (const bool dense_excess : {true, false}) {
     double previous = 0.0;
     for (double f = 1e-5; f < 0.66; f += 1e-5) {
-      const PressureAndSlope p = solid_pressure(f, theta, e, rho_s, paper, dilatancy);
+      const PressureAndSlope p = solid_pressure(f, theta, e, rho_s, paper, dense_excess);
       ASSERT_GE(p.value, previous * (1.0 - 1e-14)) << f;
       ASSERT_LE(p.value - previous, 2e-5 * p.slope + 1e-3 * p.value + 1e-6) << f;
       previous = p.value;

@@ -54,7 +54,7 @@ struct Step {
   double solid_after(double dt, std::ptrdiff_t c) const { return f_s[c] - dt * s.divergence(flux_s, c); }
   closures::PressureAndSlope law(double f, std::ptrdiff_t c) const {
     return test::solid_pressure(std::fmax(f, 0.0), theta[c], rheology.restitution[c], s.scene.solid.density,
-                                s.scene.contact, s.scene.model.dilatancy_pressure);
+                                s.scene.contact, s.scene.model.dense_excess);
   }
   // Continuity and the law in every cell, recomputed from the fluxes that came out.
   void expect_closed(double dt) const {
@@ -123,7 +123,7 @@ TEST(CoupledPressure, ClosesBothBalancesFromRandomStates) {
            {SlopeLimiter::of<closures::LimiterNone>(), SlopeLimiter::of<closures::LimiterVanLeer>()})
         for (double density : {50.0, 200.0, 2500.0}) {
           Scene scene = unit_scene(dim, 8);
-          scene.numerics.solid_flux = flux;
+          scene.numerics.transport_scheme = flux;
           scene.solid.density = density;
           if (kind[0] == 'o') scene.sides[top].kind = SideKind::open;
           if (kind[0] == 'p') make_periodic(scene, 0);

@@ -277,10 +277,10 @@ TEST(Friction, UniformShearTakesTheLawsPower) {
   Scene scene = Layer::between(WallKind::no_slip, WallKind::no_slip);
   scene.sides[top].velocity[0] = 2.0;
   scene.contact.regularisation = 0.05;  // far from both ends of the law
-  const double rate = 2.0 / 0.16, pressure = 300.0, dilatancy = 0.15;
+  const double rate = 2.0 / 0.16, pressure = 300.0, tan_psi = 0.15;
   Layer layer(scene);
   layer.rheology.enduring_pressure.fill(pressure);
-  layer.rheology.dilatancy_tangent.fill(dilatancy);
+  layer.rheology.dilatancy_tangent.fill(tan_psi);
   layer.s.each_cell(
       [&](int i, int j, int k, std::ptrdiff_t c) { layer.u[0][c] = rate * layer.s.face(0, i, j, k)[1]; });
   layer.u_strain = layer.u;
@@ -288,7 +288,7 @@ TEST(Friction, UniformShearTakesTheLawsPower) {
   layer.solve();
   Field kinetic(layer.s.grid);
   const double stress =
-      closures::friction_viscosity(pressure, scene.solid.friction + dilatancy, 0.05, 0.5 * rate) * rate;
+      closures::friction_viscosity(pressure, scene.solid.friction + tan_psi, 0.05, 0.5 * rate) * rate;
   EXPECT_NEAR(layer.power(layer.u, layer.u, kinetic).friction, stress * rate * 0.04 * 0.16,
               1e-4 * stress * rate * 0.04 * 0.16);
 }

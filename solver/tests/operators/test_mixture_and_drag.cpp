@@ -93,7 +93,7 @@ TEST(InterphaseDrag, IsHinderedAsInTheCellTheGrainsMoveInto) {
   const double below = 0.4, mean = 0.2;
   const auto beta_at = [&](SlopeLimiter flux, double slip) {
     Scene scene = unit_scene(2, 4);
-    scene.numerics.solid_flux = flux;
+    scene.numerics.transport_scheme = flux;
     const Tank s(scene);
     State state = s.uniform_state(0.0);
     state.f_s = s.cells([=](const Vec3& x) { return x[1] < 0.5 ? below : 0.0; });

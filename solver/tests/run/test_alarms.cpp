@@ -273,7 +273,7 @@ TEST_F(AlarmRules, EachLimitRaisesItsOwnAlarm) {
     double below, above;
   };
   for (const Wrong& wrong : {Wrong{"energy residual", &EnergyTerms::residual, 0.009, 0.011},
-                             Wrong{"energy created", &EnergyTerms::dilatancy, 0.49, 0.51},
+                             Wrong{"energy created", &EnergyTerms::dense_excess, 0.49, 0.51},
                              Wrong{"granular bounds", &EnergyTerms::theta_bounds, 0.009, 0.011}}) {
     EnergyTerms energy = moving();
     energy.*wrong.term = wrong.below;

@@ -110,7 +110,7 @@ TEST(EnergyBudget, WhatIsSwitchedOffTakesNothing) {
   EXPECT_GT(dragless.now.energy.friction, 0.0);
   EXPECT_EQ(cold.now.energy.collisions, 0.0);
   EXPECT_EQ(cold.now.energy.granular, 0.0);
-  EXPECT_NEAR(cold.now.energy.dilatancy, 0.0, 1e-4 * cold.now.energy.drag);
+  EXPECT_NEAR(cold.now.energy.dense_excess, 0.0, 1e-4 * cold.now.energy.drag);
 }
 
 // A dense bed that a step sets free: every face that it opens must carry the bed's own fraction (with that of
