@@ -1,20 +1,13 @@
-"""An OpenFOAM case's own output (ASCII, one uniform block, x along the tank, y up) as fields.h5 of docs/output.md.
-
-The fields then go through the same extraction as ours, so that fronts and levels mean the same on both sides.
-"""
+"""An OpenFOAM case's own output (ASCII, one uniform block, x along the tank, y up) as fields.h5 of docs/output.md."""
 
 import re
 
-import h5py
 import numpy as np
 
 from granvof_files import text_of
+from lay.their_fields import FIELDS, CaseError, Grid, Source, sources, write
 
 NUMBER = r"[-+0-9.eE]+"
-
-
-class CaseError(Exception):
-    """What is wrong with the case, in one line."""
 
 
 def read_grid(case):
@@ -50,10 +43,6 @@ def read_field(path, cells, width):
     return np.broadcast_to(np.array(uniform.group(1).split(), dtype=float), shape if width > 1 else shape + (1,)).reshape(shape)
 
 
-# Our field -> the number of its components.
-FIELDS = {"alpha": 1, "f_s": 1, "u_c": 3, "u_s": 3, "p_c": 1, "theta": 1}
-
-
 def liquid_field(directory, others):
     """The volume fraction of the liquid: alpha.water, or the only alpha.* there is; None where the only ones are `others`."""
     found = sorted(path for path in directory.glob("alpha.*") if path.name not in others)
@@ -83,39 +72,38 @@ def convert(case, target, names=None):
 
 
 def convert_case(case, target, names):
-    for our in names:
-        if our not in FIELDS:
-            raise CaseError(f"--map: '{our}' given; allowed: {', '.join(FIELDS)}")
-    cells, spacing, origin = read_grid(case)
-    times = instants(case, names.get("u_c", "U"))
-    said = [f"{len(times)} instants, {times[0][0]:g} to {times[-1][0]:g} s, on {' x '.join(map(str, cells))} cells"]
-    said += [f"{our} is {their}" for our, their in names.items()]
-    with h5py.File(target, "w") as file:
-        file.attrs["cells"], file.attrs["spacing"], file.attrs["origin"] = cells.astype("i4"), spacing, origin
-        file.attrs["scene"], file.attrs["contract_version"] = case.name, 1
-        for index, (time, directory) in enumerate(times):
-            group = file.create_group(f"t{index:04}")
-            group.attrs["time"] = time
-            liquid = directory / names["alpha"] if "alpha" in names else liquid_field(directory, names.values())
-            if liquid is None and index == 0:
-                said.append("no other alpha.*: all is liquid between the grains")
-            alpha = np.ones(tuple(cells[::-1])) if liquid is None else named_field(liquid, cells, 1)
-            pressure = directory / names.get("p_c", "p")
-            group["alpha"] = alpha
-            group["u_c"] = read_field(directory / names.get("u_c", "U"), cells, 3)
-            # At time 0 a case often holds p_rgh alone: no pressure yet.
-            group["p_c"] = read_field(pressure, cells, 1) if pressure.exists() else np.zeros_like(alpha)
-            # MPPICInterFoam and DPMFoam write the share of the continuous phase.
-            continuous = directory / "alphac"
-            if "f_s" in names:
-                group["f_s"] = named_field(directory / names["f_s"], cells, 1)
-            else:
-                group["f_s"] = 1.0 - read_field(continuous, cells, 1) if continuous.exists() else np.zeros_like(alpha)
-            group["phi"] = np.zeros_like(alpha)
-            for name in ("theta", "u_s"):
-                shape = alpha.shape + ((3,) if FIELDS[name] > 1 else ())
-                group[name] = named_field(directory / names[name], cells, FIELDS[name]) if name in names else np.zeros(shape)
+    mapped = sources(names, FIELDS)
+    grid = Grid(*read_grid(case))
+    times = instants(case, mapped["u_c"].name if "u_c" in mapped else "U")
+    said = [f"{len(times)} instants, {times[0][0]:g} to {times[-1][0]:g} s, on {' x '.join(map(str, grid.cells))} cells"]
+    said += [f"{our} is {source}" for our, source in mapped.items()]
+    if "alpha" not in mapped and liquid_field(times[0][1], named(mapped)) is None:
+        said.append("no other alpha.*: all is liquid between the grains")
+    write(target, case.name, grid, ((time, fields_at(directory, grid.cells, mapped)) for time, directory in times))
     return said
+
+
+def named(mapped):
+    return {source.name for source in mapped.values()}
+
+
+def fields_at(directory, cells, mapped):
+    """Our fields of an instant that the case has."""
+    fields = {our: source.of(named_field(directory / source.name, cells, FIELDS[our][0])) for our, source in mapped.items()
+              if our != "p_c"}
+    if "alpha" not in mapped and (liquid := liquid_field(directory, named(mapped))) is not None:
+        fields["alpha"] = named_field(liquid, cells, 1)
+    if "u_c" not in mapped:
+        fields["u_c"] = read_field(directory / "U", cells, 3)
+    # At time 0 a case often holds p_rgh alone: no pressure yet.
+    pressure = mapped.get("p_c", Source("p"))
+    if (directory / pressure.name).exists():
+        fields["p_c"] = pressure.of(read_field(directory / pressure.name, cells, 1))
+    # MPPICInterFoam and DPMFoam write the share of the continuous phase.
+    continuous = directory / "alphac"
+    if "f_s" not in mapped and continuous.exists():
+        fields["f_s"] = 1.0 - read_field(continuous, cells, 1)
+    return fields
 
 
 def named_field(path, cells, width):

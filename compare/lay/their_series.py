@@ -18,7 +18,7 @@ from granvof_files import bytes_of, required, write_whole
 UNITS = {
     "s": ("s", 1.0), "ms": ("s", 1e-3), "us": ("s", 1e-6), "min": ("s", 60.0),
     "m": ("m", 1.0), "dm": ("m", 1e-1), "cm": ("m", 1e-2), "mm": ("m", 1e-3), "um": ("m", 1e-6), "km": ("m", 1e3),
-    "Pa": ("Pa", 1.0), "hPa": ("Pa", 1e2), "mbar": ("Pa", 1e2), "kPa": ("Pa", 1e3), "bar": ("Pa", 1e5), "MPa": ("Pa", 1e6),
+    "Pa": ("Pa", 1.0), "hPa": ("Pa", 1e2), "mbar": ("Pa", 1e2), "kPa": ("Pa", 1e3), "bar": ("Pa", 1e5), "MPa": ("Pa", 1e6), "dyn/cm2": ("Pa", 1e-1),
     "m/s": ("m/s", 1.0), "cm/s": ("m/s", 1e-2), "mm/s": ("m/s", 1e-3),
     "m2/s2": ("m2/s2", 1.0), "cm2/s2": ("m2/s2", 1e-4), "mm2/s2": ("m2/s2", 1e-6),
     "m3": ("m3", 1.0), "l": ("m3", 1e-3), "cm3": ("m3", 1e-6), "ml": ("m3", 1e-6), "mm3": ("m3", 1e-9),

@@ -15,7 +15,7 @@ import pytest
 import granvof
 import granvof_files
 from border import table
-from lay import from_openfoam, their_series
+from lay import from_openfoam, from_vtk, their_series
 from report import results, sections
 
 
@@ -79,6 +79,10 @@ def test_other_readers(tmp_path, kind):
         table.read(path)
     with pytest.raises(OSError):
         from_openfoam.read_field(path, np.array([1, 1, 1]), 1)
+    path.rename(tmp_path / "given.pvd")
+    with pytest.raises(from_vtk.CaseError):
+        from_vtk.convert(tmp_path / "given.pvd", tmp_path / "theirs.h5")
+    (tmp_path / "given.pvd").rename(path)
     (tmp_path / "charts").mkdir()
     kind(tmp_path / "charts/charts.json")
     with pytest.raises(results.Damaged):

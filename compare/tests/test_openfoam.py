@@ -114,6 +114,17 @@ def test_names_can_be_mapped(case):
         assert (file["t0001/alpha"][:] == 1).all()
 
 
+def test_grains_are_what_the_share_of_the_fluid_leaves(case):
+    for time in ("0", "0.5", "10"):
+        (case / time / "voidfraction").write_text(field([1 - 0.1 * i for i in range(8)]))
+        (case / time / "Us").write_text(field([(0, i, 0) for i in range(8)], "vector"))
+    said = from_openfoam.convert(case, case / "theirs.h5", {"f_s": "1-voidfraction", "u_s": "Us [cm/s]"})
+    assert said[1:] == ["f_s is 1 - voidfraction", "u_s is Us, times 0.01"]
+    with h5py.File(case / "theirs.h5") as file:
+        assert file["t0001/f_s"][0, 1, 2] == pytest.approx(0.6)
+        assert file["t0001/u_s"][0, 1, 2].tolist() == pytest.approx([0, 0.06, 0])
+
+
 def refused_map(case, names):
     with pytest.raises(from_openfoam.CaseError) as error:
         from_openfoam.convert(case, case / "theirs.h5", names)
