@@ -159,6 +159,7 @@ void Run::write_output(bool at_start, const std::vector<DueOutput>& due_now) {
       for (const EnergyTerm& term : energy_terms) row.emplace_back(energy.*term.value);
       last_row_ = extract_scalars(fields, scene_);
       writer_.write_series_row(due.time, row, last_row_);
+      progress_line_.add(last_row_);
     }
     if (due.fields) writer_.write_fields(fields);
   }
