@@ -189,8 +189,17 @@ CASE_TO_SHOW = '[scene]\ndimensions = 2\n[tank]\nsize = [0.12, 0.08]\ngravity = 
 
 @pytest.fixture
 def run_to_show(tmp_path):
+    return write_run_to_show(tmp_path / "mine")
+
+
+@pytest.fixture(scope="session")
+def run_shown(tmp_path_factory):
+    """One for all who only look at it."""
+    return write_run_to_show(tmp_path_factory.mktemp("shown") / "mine")
+
+
+def write_run_to_show(run):
     """A run of six instants with all that compare/show needs."""
-    run = tmp_path / "mine"
     run.mkdir()
     (run / "series.csv").write_text("time [s],front_dense [m],p_base [Pa]\n0,0.1,\n0.5,0.2,\n")
     (run / "run.json").write_text(json.dumps({
