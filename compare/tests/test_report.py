@@ -193,6 +193,18 @@ def test_rounding_noise_of_a_conserved_volume_is_no_change(verify_directory, mak
     assert results.changes(loaded) == []
 
 
+def test_what_is_more_than_noise_is_a_change_within_an_absolute_tolerance_too(verify_directory, make_row):
+    row = make_row(id="v", metric="drift", value=2e-3, reference=0, verdict="agrees", distance=0.0, unexpected=False)
+    loaded = results.load(verify_directory)
+    loaded.rows, loaded.previous = [row], {"v": row | {"value": 1e-3}}
+    assert [found["id"] for found, _, _ in results.changes(loaded)] == ["v"]
+
+
+def test_a_change_is_relative_to_the_larger_of_the_two():
+    assert not results.moved(1.0, 1.0515, 0.05) and not results.moved(1.0515, 1.0, 0.05)
+    assert results.moved(1.0, 1.06, 0.05) and results.moved(1.06, 1.0, 0.05)
+
+
 def test_a_plot_without_its_runs_is_left_out(verify_directory, tmp_path):
     loaded = results.load(verify_directory)
     loaded.curves, loaded.records, loaded.rows = {}, {}, []
