@@ -1,5 +1,6 @@
 # `make install` and `make package`: the two programs, the Python modules, the shipped cases, what advise and ablate read,
-# man pages and completion. Both are made of the programs' own --help when they are installed.
+# man pages and completion. Both are made of the programs' own --help when they are installed. The reference, where it is
+# built, is installed too; the package is without it, since it would not go without LIGGGHTS and OpenFOAM.
 include(GNUInstallDirs)
 
 set(share ${CMAKE_INSTALL_DATADIR}/granvof)
@@ -17,12 +18,25 @@ install(FILES compare/kept/verify/results.json DESTINATION ${share}/compare/kept
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 find_program(GRANVOF_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-set(manuals ${CMAKE_BINARY_DIR}/manuals)
-install(CODE "
-  execute_process(COMMAND ${GRANVOF_PYTHON} ${CMAKE_SOURCE_DIR}/ci/manuals
-    --out ${manuals} $<TARGET_FILE:granvof_program> $<TARGET_FILE:granvof-compare> COMMAND_ERROR_IS_FATAL ANY)")
-install(DIRECTORY ${manuals}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
-install(DIRECTORY ${manuals}/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+function(install_manuals component)
+  set(manuals ${CMAKE_BINARY_DIR}/manuals/${component})
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE programs)
+  list(JOIN programs " " programs)
+  install(CODE "
+    execute_process(COMMAND ${GRANVOF_PYTHON} ${CMAKE_SOURCE_DIR}/ci/manuals
+      --out ${manuals} ${programs} COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component})
+  install(DIRECTORY ${manuals}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT ${component})
+  install(DIRECTORY ${manuals}/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT ${component})
+endfunction()
+install_manuals(Unspecified granvof_program granvof-compare)
+if(TARGET demvof)
+  set_target_properties(demvof PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/granvof")
+  install(TARGETS demvof RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT reference)
+  install(TARGETS demvof_environment LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/granvof COMPONENT reference)
+  install_manuals(reference demvof)
+endif()
+
+set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};${PROJECT_NAME};Unspecified;/")
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "the authors of granvof")

@@ -32,6 +32,16 @@ def test_each_program_has_its_page_and_its_completion(installed):
         assert word in (installed / f"share/bash-completion/completions/{program}").read_text()
 
 
+def test_the_reference_has_them_too_where_it_is_built(installed):
+    if not (ROOT / "build/release/reference/demvof/demvof").exists():
+        pytest.skip("built without the reference")
+    said = subprocess.run([installed / "bin/demvof", "--version"], capture_output=True, text=True)
+    assert said.returncode == 0 and said.stdout.startswith("demvof 0."), said.stderr
+    page = (installed / "share/man/man1/demvof.1").read_text().replace("\\-", "-")
+    assert page.startswith('.TH DEMVOF 1 "" "demvof 0.') and ".SH demvof element" in page and "--gate-closed" in page
+    assert "--gate-closed" in (installed / "share/bash-completion/completions/demvof").read_text()
+
+
 def test_the_module_is_found(installed):
     subprocess.run(["/usr/bin/python3", "-c", "import granvof; granvof.load"], check=True,
                    env=os.environ | {"PYTHONPATH": str(installed / "lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"})

@@ -18,6 +18,7 @@
 #include "compare/program/run_command.hpp"
 #include "compare/program/study_commands.hpp"
 #include "solver/output/atomic_file.hpp"
+#include "solver/output/build_info.hpp"
 #include "solver/output/empty_values.hpp"
 #include "solver/output/output_error.hpp"
 #include "solver/output/own_stack.hpp"
@@ -152,6 +153,7 @@ std::string failure_text(const CLI::App*, const CLI::Error& error) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Judges runs by the table of checks, and studies what a scene needs"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", granvof::version_text("granvof-compare"));
   app.failure_message(failure_text);
   Options options;
 

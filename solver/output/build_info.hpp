@@ -1,6 +1,7 @@
 // What was built, with what; filled in by the build.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace granvof {
@@ -14,5 +15,7 @@ struct BuildInfo {
 };
 
 const BuildInfo& build_info();
+// What a program says of itself, as "granvof 0.1.0 (commit)".
+std::string version_text(std::string_view program);
 
 }  // namespace granvof

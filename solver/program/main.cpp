@@ -57,12 +57,6 @@ void add_case(CLI::App& command, Arguments& arguments) {
       ->allow_extra_args(false);
 }
 
-std::string version_text() {
-  const granvof::BuildInfo& info = granvof::build_info();
-  return fmt::format("granvof {}{}", info.version,
-                     info.git_commit.empty() ? "" : fmt::format(" ({})", info.git_commit));
-}
-
 std::string command_line(int argc, char** argv) {
   std::string line = argv[0];
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
@@ -169,7 +163,7 @@ std::string failure_text(const CLI::App* app, const CLI::Error& error) {
 int parse_and_run(int argc, char** argv, const granvof::Communicator* processes) {
   CLI::App app{"A continuum solver for gas-liquid-solid flow."};
   app.name("granvof");
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", granvof::version_text("granvof"));
   app.require_subcommand(1);
   app.failure_message(failure_text);
 

@@ -13,6 +13,7 @@
 #include "reference/demvof/program/record_chute.hpp"
 #include "reference/demvof/program/record_element.hpp"
 #include "reference/demvof/program/record_scene.hpp"
+#include "solver/output/build_info.hpp"
 #include "solver/output/empty_values.hpp"
 #include "solver/output/own_stack.hpp"
 #include "solver/output/standard_streams.hpp"
@@ -79,8 +80,9 @@ int hash(const Arguments& arguments) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("demvof: unresolved DEM-VOF with LIGGGHTS and OpenFOAM, the reference of granvof");
+  CLI::App app("Unresolved DEM-VOF with LIGGGHTS and OpenFOAM, the reference of granvof");
   app.require_subcommand(1);
+  app.set_version_flag("--version", granvof::version_text("demvof"));
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("demvof: {} (demvof --help says what is allowed)\n",
                        granvof::case_file::printable(error.what(), longest_message));
