@@ -52,6 +52,8 @@ TEST(Grid, LoopsSeeEveryValueOnceAlsoInParallel) {
   EXPECT_EQ(max_over(s.grid.cells, s.grid.all_cells(), 0.0, value), 3.0);
   f[s.grid.cells.index(17, 4, 0)] = NAN;
   EXPECT_TRUE(std::isnan(max_over(s.grid.cells, s.grid.all_cells(), 0.0, value)));
+  EXPECT_TRUE(everywhere(s.grid.cells, true));
+  EXPECT_FALSE(everywhere(s.grid.cells, false));
 }
 
 TEST(Boundary, ScalarsAreMirroredOrTakeTheOpenTopsValue) {

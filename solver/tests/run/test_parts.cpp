@@ -191,6 +191,25 @@ TEST(Parts, ActWhereTheSceneHasThem) {
   EXPECT_EQ(usual.count("obstacles") + usual.count("inlets") + usual.count("outlets"), 3U);
 }
 
+// A tank that is empty at the start.
+TEST(Parts, ActOnWhatComesInToo) {
+  Scene scene = test::column_scene();
+  scene.bed.reset();
+  scene.liquid_boxes.clear();
+  EXPECT_FALSE(has_grains(scene) || has_liquid(scene));
+  scene.sides[left].kind = SideKind::inlet;
+  EXPECT_FALSE(has_grains(scene) || has_liquid(scene));  // of the gas alone
+  scene.sides[left].inflow.liquid_share = 1.0;
+  EXPECT_TRUE(has_liquid(scene) && !has_grains(scene));
+  scene.sides[left].inflow.solid_fraction = 0.1;
+  EXPECT_TRUE(has_grains(scene));
+  scene.sides[left] = {};
+  scene.sides[right].kind = SideKind::outlet;
+  EXPECT_FALSE(has_liquid(scene));
+  scene.sides[right].outflow.level = 0.01;  // liquid stands beyond it
+  EXPECT_TRUE(has_liquid(scene));
+}
+
 TEST(Parts, StandInTheRecordOfARun) {
   const test::TemporaryDirectory directory;
   const Scene scene = test::column_scene({"time.end=0.01", "model.drag=false"});
