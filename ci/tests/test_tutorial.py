@@ -20,7 +20,9 @@ NUMBER = re.compile(r"(?<![\w.@-])\d+(?:\.\d+)?(?![\w-])")
 
 
 def is_said(line, said):
-    """Whether what was printed has the line: its words as they are, its numbers up to a half of them, for they move with the results."""
+    """Whether what was printed has the line: its words as they are, its numbers up to a half of them, for they move with the results,
+    and with them the blanks between the columns of a table."""
+    line, said = (re.sub(" +", " ", text) for text in (line, said))
     words = r"(?<![\w.@-])(\d+(?:\.\d+)?)(?![\w-])".join(re.escape(part) for part in NUMBER.split(line))
     numbers = [float(number) for number in NUMBER.findall(line)]
     return any(all(abs(float(one) - number) <= 0.5 * number for one, number in zip(found.groups(), numbers))
@@ -30,6 +32,7 @@ def is_said(line, said):
 def test_numbers_of_the_tutorial_may_move_and_its_words_may_not():
     said = "answer: run_out@3 0.72 [-], +- 0.1 by the grid\n"
     assert is_said("answer: run_out@3 0.698 [-], +- 0.09 by the grid", said)
+    assert is_said("sourced   paper", "presets  sourced     paper\n") and not is_said("sourced   paper", "presets  paper  sourced\n")
     assert not is_said("answer: run_out@3 0.2 [-], +- 0.1 by the grid", said)
     assert not is_said("answer: run_out@4 0.72 [-], +- 0.1 by the grid", said)
     assert not is_said("answer: run_out@3 0.72 [-], +- 0.1 by the model", said)

@@ -30,6 +30,22 @@ Json answer_json(const AdviseReport& report) {
           {"by_model_and_grid", json_number(answer->by_both)}};
 }
 
+Json presets_json(const AdviseReport& report) {
+  Json list = Json::array();
+  const auto add = [&](const OtherModel& one) {
+    list.push_back({{"method", one.method},
+                    {"preset", one.preset},
+                    {"value", json_number(one.value)},
+                    {"distance", json_number(one.distance)},
+                    {"core_s_per_s", one.cost},
+                    {"failure", one.failure}});
+  };
+  if (report.others.empty()) return list;
+  add(report.itself);
+  for (const OtherModel& other : report.others) add(other);
+  return list;
+}
+
 std::string error_text(const Trial& trial) {
   return trial.error ? fmt::format("{:.2g} %", 100.0 * *trial.error) : "-";
 }
@@ -127,6 +143,7 @@ std::vector<std::string> advise_summary(const AdviseReport& report) {
 std::string advise_text(const AdviseReport& report) {
   std::string text;
   for (const std::string& line : advise_summary(report)) text += line + "\n";
+  for (const std::string& line : presets_table(report)) text += line + "\n";
   if (!report.advice.steps.empty()) text += "evidence:\n";
   for (const Step& step : report.advice.steps)
     text += fmt::format("  {:<60} {:>8} {:>9.3g} core-s/s  {}\n", name_of(step.configuration),
@@ -146,6 +163,7 @@ std::string advise_json(const AdviseReport& report) {
       {"summary", advise_summary(report)},
       {"refusal", report.refusal},
       {"set", report.set},
+      {"presets", presets_json(report)},
       {"steps", Json::array()}};
   for (const Step& step : report.advice.steps)
     json["steps"].push_back({{"configuration", name_of(step.configuration)},
@@ -162,6 +180,8 @@ std::string advised_case(const AdviseReport& report, const std::filesystem::path
       report.input.quantity.label(), 100.0 * report.input.tolerance, report.version));
   text += "#\n";
   for (const std::string& line : advise_summary(report)) text += comment(line);
+  if (!report.others.empty()) text += "#\n";
+  for (const std::string& line : presets_table(report)) text += fmt::format("# {}\n", line);
   text += "#\n# Evidence (error, core-s per simulated s):\n";
   for (const Step& step : report.advice.steps)
     text += comment(fmt::format("{}: {}, {:.3g}; {}", name_of(step.configuration), error_text(step.trial),

@@ -154,11 +154,16 @@ void try_other_models(const std::vector<Method>& methods, const Method& model, c
   if (model.other_model && !paper.other_model) others.push_back(paper);
   for (const Method& method : methods)
     if (method.other_model && method.name != model.name) others.push_back(method);
-  for (const Method& method : others) {
+  const auto tried = [&](const Method& method) {
     const Outcome made = bench.outcome({cell, method, {}});
-    OtherModel other{name_of(method), bench.distance({cell, method, {}}, {cell, model, {}}), made.failure};
-    report.others.push_back(std::move(other));
-  }
+    OtherModel one{name_of(method), bench.distance({cell, method, {}}, {cell, model, {}}), made.failure,
+                   method.preset};
+    if (made.run) one.value = observe(report.input.quantity, *made.run).value;
+    one.cost = made.cost();
+    return one;
+  };
+  report.itself = tried(model);
+  for (const Method& method : others) report.others.push_back(tried(method));
 }
 
 // Parts that a walk may leave out: what a choice beside the paper's model is worth is tried by methods that

@@ -28,11 +28,14 @@ struct AdviseInput {
 // A reference whose own uncertainty is more than this share of the tolerance cannot tell whether it is met.
 inline constexpr double largest_floor = 0.5;
 
-// Another preset's result beside that of the model that was advised on, on the same cells.
+// A preset's result on the cells where all are tried.
 struct OtherModel {
   std::string method;
-  std::optional<double> distance;  // relative [-]
+  std::optional<double> distance;  // from that of the model that is advised on, relative [-]
   std::string failure;
+  std::string preset{};           // that it makes; empty: none
+  std::optional<double> value{};  // in the unit of the quantity; nothing: a curve, or it has none
+  double cost = 0.0;              // [core-s per simulated s]
 };
 
 struct AdviseReport {
@@ -44,7 +47,8 @@ struct AdviseReport {
   std::string refusal;           // why nothing can be told; empty: it can
   SceneNumbers numbers{};
   std::string model{};               // against our own finest grid: the method that stands for it
-  std::vector<OtherModel> others{};  // likewise
+  OtherModel itself{};               // likewise, its result
+  std::vector<OtherModel> others{};  // likewise, those of the other presets
   double others_cell = 0.0;          // where they were tried [m]
   Observed observed{};               // of the chosen configuration
   std::string preset{};              // of its model; where none was chosen, of our own finest grid
@@ -73,6 +77,9 @@ AdviseReport advise_scene(const AdviseInput& input, const std::vector<Method>& m
 // What the figure is and what it is worth, then the answer.
 std::vector<std::string> advise_summary(const AdviseReport& report);
 std::string advise_text(const AdviseReport& report);
+// Lines of a table, a column a preset: what each gives, what it was off by in the nearest recorded scene, and
+// its cost; none where no others were tried.
+std::vector<std::string> presets_table(const AdviseReport& report);
 std::string advise_json(const AdviseReport& report);
 
 // A case based on `case_file` with `set`, for a file `name`.toml in `directory`; its header is the evidence.

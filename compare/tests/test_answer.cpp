@@ -112,6 +112,26 @@ TEST(Answer, WhereNoneIsConfirmedTheReferenceStillHasAValue) {
   EXPECT_EQ(line_of(report), "");
 }
 
+TEST(PresetsTable, HasAColumnAPreset) {
+  AdviseReport report = report_of_own_grid();
+  EXPECT_TRUE(presets_table(report).empty());
+  report.others_cell = 0.005;
+  report.itself = {"preset sourced", 0.0, "", "sourced", 0.74, 2.5};
+  report.others = {{"preset paper (first order, CICSAM)", 0.3, "", "paper", 0.518, 1.25},
+                   {"Jop's law", std::nullopt, "step collapse", "", std::nullopt, 0.0}};
+  const std::vector<std::string> expected{"presets on 5 mm           sourced       paper  Jop's law",
+                                          "run_out@3 [-]                0.74       0.518          -",
+                                          "off from sourced                -        30 %     failed",
+                                          "off in s1, against DEM  1 to 12 %  30 to 70 %  not known",
+                                          "core-s per simulated s        2.5        1.25          -"};
+  EXPECT_EQ(presets_table(report), expected);
+  report.input.like.front().farthest = 5.0;
+  EXPECT_TRUE(presets_table(report)[3].starts_with("off in s1, against DEM (not near)  "));
+  EXPECT_NE(advise_text(report).find("\npresets on 5 mm"), std::string::npos);
+  EXPECT_NE(advised_case(report, ".", "mine-advised").find("\n# presets on 5 mm"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(advise_json(report)).at("presets").at(1).at("value"), 0.518);
+}
+
 TEST(PresetNames, AMethodThatIsAPresetIsCalledByIt) {
   AdviseInput input;
   input.case_file = cases_directory() / "s1.toml";
