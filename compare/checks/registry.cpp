@@ -21,6 +21,7 @@
 #include "compare/metrics/run_out.hpp"
 #include "compare/metrics/series_difference.hpp"
 #include "compare/metrics/toe_drift.hpp"
+#include "solver/scene/gravity.hpp"
 
 namespace granvof::compare {
 
@@ -185,6 +186,14 @@ Measured solid_height_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run.curve("y_solid_mean"), *p.at), "no solids at that time");
 }
 
+Measured liquid_height_at(const Run& run, const Parameters& p, const FindRun&) {
+  const auto energy = value_at(run.curve("potential_energy_liquid"), *p.at),
+             volume = value_at(run.curve("liquid_volume"), *p.at);
+  const double weight = run.scene.liquid.density * normal_gravity(run.scene);
+  if (!energy || !volume || *volume <= 0.0 || weight <= 0.0) return {std::nullopt, "no liquid at that time"};
+  return {*energy / (weight * *volume), ""};
+}
+
 Measured solid_volume_at(const Run& run, const Parameters& p, const FindRun&) {
   return measured(value_at(run.curve("solid_volume"), *p.at), "no solids at that time");
 }
@@ -306,6 +315,8 @@ constexpr std::array table{
     MetricEntry{"grain_front", "m", "grain front (f_s >= 0.30) at t = at", at_only, grain_front_at},
     MetricEntry{"solid_height", "m", "height of the centre of mass of all solids at t = at", at_only,
                 solid_height_at},
+    MetricEntry{"liquid_height", "m", "height of the centre of mass of all liquid at t = at", at_only,
+                liquid_height_at},
     MetricEntry{"solid_volume", "m3", "volume of all solids at t = at", at_only, solid_volume_at},
     MetricEntry{"energy_share", "-",
                 "what a term of the energy takes of the potential energy released in a window of T, in terms "

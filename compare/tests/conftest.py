@@ -16,7 +16,7 @@ sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "solver/python")]
 def label_of(check, at):
     """Metric of a row of results, from a check of the table and an instant or None: as metric_label() of compare/output/text.cpp."""
     parts = [f"@{at:g}"] if at is not None else []
-    parts += [f"-{check[key]}" for key in ("term", "against", "column") if key in check]
+    parts += [f"-{check[key]}" for key in ("against", "column", "term", "scheme") if key in check]
     return "".join([check["metric"], *parts]) + (f" ({check['label']})" if "label" in check else "")
 
 
