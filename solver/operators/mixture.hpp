@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "solver/grid/field.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace granvof {
 
@@ -13,6 +14,10 @@ inline constexpr double least_solid_fraction = 1e-6;
 // Below this one u_s neither bounds a step nor has it refused, and P_s does not push: the grains of a face
 // are those of the old level, and what a filling cell's pressure would make of next to none is no velocity.
 inline constexpr double solid_that_counts = 1e-3;
+// The same for steps of a scene whose bed is itself so dilute.
+inline double solid_that_counts_in(const Scene& scene) {
+  return std::min(solid_that_counts, scene.bed ? 0.01 * scene.bed->solid_fraction : solid_that_counts);
+}
 
 // rho_c = alpha rho_l + (1 - alpha) rho_g [kg/m3]; mu_c likewise [Pa s] (below eq (5)). Pure, cell by cell.
 inline double mixture(double alpha, double liquid, double gas) {

@@ -37,6 +37,7 @@ void MomentumPredictor::update(double dt, const State& now, const FaceInertia& i
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
+    const double outside = gradient_outside(scene_)[d], on_solid = outside / scene_.solid.density;
     const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
     convect_fluid(now, inertia, d);
     fluid_[d] = convective_[d];
@@ -44,16 +45,17 @@ void MomentumPredictor::update(double dt, const State& now, const FaceInertia& i
     viscous_power_ += viscosity.power_on(now.u_c, inertia, d, convective_[d], fluid_[d]);
     upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.solid[d], grid_, boundary_.walls(),
                                                                  now.u_s, d, solid, limited_, solid_[d]);
-    bound_convection(grid_, now.u_s, d, solid, dt, inertia.f_s[d], solid_that_counts, solid_[d]);
+    bound_convection(grid_, now.u_s, d, solid, dt, inertia.f_s[d], solid_that_counts_in(scene_), solid_[d]);
     const double *open = aperture[d].data(), *f = inertia.f_s[d].data(), *m = inertia.fluid[d].data();
     const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
     double *c_star = fluid_[d].data(), *s_star = solid_[d].data();
     for_each(grid_.cells, fluid, [=](std::ptrdiff_t c) {
-      const double pressure = (1.0 - f[c]) * (p[c] - p[c - s]) * inv_h / m[c];
+      const double pressure = (1.0 - f[c]) * ((p[c] - p[c - s]) * inv_h + outside) / m[c];
       c_star[c] = open[c] * (uc[c] + dt * (c_star[c] + gravity - pressure));
     });
-    for_each(grid_.cells, solid,
-             [=](std::ptrdiff_t c) { s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity)); });
+    for_each(grid_.cells, solid, [=](std::ptrdiff_t c) {
+      s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity - on_solid));
+    });
     if (extra != nullptr) add(dt, aperture, *extra, d);
     boundary_.exchange(fluid_[d]);
     boundary_.exchange(solid_[d]);

@@ -19,7 +19,8 @@ class Faces {
         next_(next),
         trace_(trace),
         g_(gravity_of(scene)),
-        confined_(confined_gravity(scene)) {}
+        confined_(confined_gravity(scene)),
+        outside_(gradient_outside(scene)) {}
 
   FaceWork sums() {
     for (int d = 0; d < grid_.dim; ++d) {
@@ -59,7 +60,7 @@ class Faces {
   double dt_;
   const State &now_, &next_;
   const StepTrace& trace_;
-  Vec3 g_, confined_;
+  Vec3 g_, confined_, outside_;
   FaceWork work_;
 };
 
@@ -90,7 +91,7 @@ void Faces::add_solid(int d) {
   });
   const auto [step, before, after, predicted, momentum, slip, spread, pressed] = sums.values;
   const double volume = grid_.cell_volume, rho_s = scene_.solid.density;
-  const double kinetic = 0.25 * rho_s * after, gravity = g_[d] * dt_ * momentum;
+  const double kinetic = 0.25 * rho_s * after, gravity = (g_[d] - outside_[d] / rho_s) * dt_ * momentum;
   // Of the ledger: step is numerical_time, slip drag, solid_transport numerical_solid; convected and moved
   // are numerical_momentum.
   work_.step += 0.5 * volume * step;
@@ -115,10 +116,10 @@ void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
                *liquid = trace_.passed.through[d].data();
   const double rho_l = scene_.liquid.density, rho_g = scene_.gas.density, heavier = (rho_l - rho_g) / dt_;
   const double dt_h = dt_ / grid_.h[d], dt = dt_;
-  const Sums<8> sums = sum_rows(grid_.cells, faces, [=](std::ptrdiff_t start, int n) {
+  const Sums<9> sums = sum_rows(grid_.cells, faces, [=](std::ptrdiff_t start, int n) {
     double step = 0.0, before = 0.0, after = 0.0, predicted = 0.0, convected = 0.0, momentum = 0.0;
-    double lifted = 0.0, pressed = 0.0;
-#pragma omp simd reduction(+ : step, before, after, predicted, convected, momentum, lifted, pressed)
+    double passed = 0.0, lifted = 0.0, pressed = 0.0;
+#pragma omp simd reduction(+ : step, before, after, predicted, convected, momentum, passed, lifted, pressed)
     for (int i = 0; i < n; ++i) {
       const std::ptrdiff_t c = start + i;
       const double v = v1[c], dv = v - v0[c], mv = m[c] * v, f_c = 1.0 - f[c];
@@ -130,13 +131,15 @@ void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
       predicted += mv * (star[c] - v0[c]) + v * f_c * dt_h * (p0[c] - p0[c - s]);
       convected += mv * convective[c] * dt;
       momentum += mv;
+      passed += f_c * v;
       lifted += rho_g * q[c] + heavier * liquid[c] - mv;
       pressed += (solved[c] - f_c * v) * (p1[c] - p1[c - s]);
     }
-    return Sums<8>{{step, before, after, predicted, convected, momentum, lifted, pressed}};
+    return Sums<9>{{step, before, after, predicted, convected, momentum, passed, lifted, pressed}};
   });
-  const auto [step, before, after, predicted, convected, momentum, lifted, pressed] = sums.values;
-  const double volume = moved.weight * grid_.cell_volume, gravity = g_[d] * dt_ * momentum;
+  const auto [step, before, after, predicted, convected, momentum, passed, lifted, pressed] = sums.values;
+  const double volume = moved.weight * grid_.cell_volume;
+  const double gravity = dt_ * (g_[d] * momentum - outside_[d] * passed);  // and the pressure outside
   // Further: fluid_transport is numerical_fluid, viscous what numerical_viscosity is taken from.
   work_.step += 0.5 * volume * step;
   work_.kinetic += 0.25 * volume * after;

@@ -80,7 +80,13 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
       s.f_s[c] = scene.bed->solid_fraction * share;
       s.phi[c] = share > 0.0 ? colour_of(*scene.bed, box) : 0.0;
     }
+    // Of what the grains leave: a level within the bed's last row does not fill their room.
     s.alpha[c] = share_of(scene.liquid_boxes, box);
+    if (s.f_s[c] > 0.0 && s.alpha[c] > 0.0)
+      s.alpha[c] = std::clamp(
+          (s.alpha[c] - scene.bed->solid_fraction * shared_by(*scene.bed, scene.liquid_boxes, box)) /
+              (1.0 - s.f_s[c]),
+          0.0, 1.0);
   });
   // Hydrostatic from the top down, with the continuous phase alone: grains at rest hang on P_s, not on P_c.
   // Under an inclined top, from its middle.

@@ -35,12 +35,12 @@ StepControl::StepControl(const Grid& grid, const Scene& scene, const closures::S
 
 double StepControl::next(const State& s) const {
   double rate = 0.0;  // of crossing a cell [1/s]
-  const double* f = s.f_s.data();
+  const double *f = s.f_s.data(), least = solid_that_counts_in(scene_);
   for (int d = 0; d < grid_.dim; ++d) {
     const double *uc = s.u_c[d].data(), *us = s.u_s[d].data();
     const std::ptrdiff_t stride = grid_.stride(d);
     const double speed = max_over(grid_.cells, grid_.fluid_faces(d), 0.0, [=](std::ptrdiff_t c) {
-      const double solid = f[c] + f[c - stride] > 2.0 * solid_that_counts ? std::fabs(us[c]) : 0.0;
+      const double solid = f[c] + f[c - stride] > 2.0 * least ? std::fabs(us[c]) : 0.0;
       return std::max(std::fabs(uc[c]), solid);
     });
     rate = std::max(rate, speed / grid_.h[d]);

@@ -14,8 +14,9 @@
 namespace granvof {
 namespace {
 
-constexpr double largest_outflow = 0.95;         // share of a cell's content that may leave it in one step
-constexpr double largest_solid_fraction = 0.66;  // beyond it the step's packing is not to be trusted
+constexpr double largest_outflow = 0.95;  // share of a cell's content that may leave it in one step
+// Beyond it the step's packing is not to be trusted: 0.66 where f_s,max is the paper's.
+constexpr double largest_of_solid_fraction_max = 0.66 / 0.63;
 
 }  // namespace
 
@@ -172,7 +173,7 @@ void TimeStep::press(Attempt& step) {
 // divergence to rounding.
 void TimeStep::balance_fluxes(Attempt& step) {
   const Field& f_s = step.now.f_s;
-  const double solid = outflow_courant(grid_, step.dt, f_s, false, solid_that_counts, flux_s_),
+  const double solid = outflow_courant(grid_, step.dt, f_s, false, solid_that_counts_in(scene_), flux_s_),
                fluid = outflow_courant(grid_, step.dt, f_s, true, 0.0, flux_c_);
   if (!(solid <= largest_outflow) || !(fluid <= largest_outflow)) {
     const bool of_solid = !(solid <= largest_outflow);
@@ -195,7 +196,7 @@ void TimeStep::carry_solid(Attempt& step) {
   const double* f = next.f_s.data();
   const double densest =
       max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return f[c]; });
-  if (!(densest <= largest_solid_fraction)) {
+  if (!(densest <= largest_of_solid_fraction_max * scene_.contact.solid_fraction_max)) {
     step.report.refused_because = fmt::format("solid fraction {:.3f}", densest);
     step.report.not_finite = !std::isfinite(densest);
     return;

@@ -82,18 +82,30 @@ void keep_apart(const Completion& c) {
                                        : obstacle.lower[axis] < c.s.tank[axis] * roundoff;
       if (meets) c.refuse("obstacle.x0", "obstacles that leave inlets and outlets free");
     }
-    if (c.s.sides[side].kind == SideKind::inlet && is_cut_off(c.s, side))
-      c.refuse("obstacle.x0",
-               fmt::format("obstacles that leave a way out to what comes in at walls.{}", side_names[side]));
+  }
+}
+
+void let_out(const Completion& c) {
+  for (int side = 0; side < 6; ++side) {
+    if (c.s.sides[side].kind != SideKind::inlet || !is_cut_off(c.s, side)) continue;
+    Scene without_gate = c.s;
+    without_gate.gate.reset();
+    const std::string way = fmt::format("leave a way out to what comes in at walls.{}", side_names[side]);
+    if (!is_cut_off(without_gate, side))
+      c.refuse("gate.speed", "no gate: before it rises it does not " + way);
+    else if (c.has("obstacle"))
+      c.refuse("obstacle.x0", "obstacles that " + way);
   }
 }
 
 }  // namespace
 
 void complete_obstacles(Completion& c) {
-  if (!c.has("obstacle")) return;
-  c.rule({"scene.dimensions", "tank", "grid", "obstacle"}, [&] { obstacles_in_cells(c); });
-  c.rule({"obstacle", "bed", "gate", "walls"}, [&] { keep_apart(c); });
+  if (c.has("obstacle")) {
+    c.rule({"scene.dimensions", "tank", "grid", "obstacle"}, [&] { obstacles_in_cells(c); });
+    c.rule({"obstacle", "bed", "gate", "walls"}, [&] { keep_apart(c); });
+  }
+  c.rule({"scene.dimensions", "tank", "grid", "obstacle", "gate", "walls"}, [&] { let_out(c); });
 }
 
 }  // namespace granvof::case_file

@@ -1,5 +1,6 @@
 #include "solver/scene/cut_off.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "solver/scene/box_cells.hpp"
@@ -54,6 +55,7 @@ class Rooms {
         const int d = side / 2;
         Place next = at;
         next[d] += side % 2 == 1 ? 1 : -1;
+        if (d == 0 && std::max(at[0], next[0]) == gate_) continue;
         if (next[d] < 0 || next[d] == n_[d]) {
           const SideKind kind = scene_.sides[side].kind;
           way_out = way_out || kind == SideKind::outlet || kind == SideKind::open;
@@ -70,6 +72,8 @@ class Rooms {
 
   const Scene& scene_;
   Place n_;
+  int gate_ =
+      scene_.gate ? static_cast<int>(std::lround(scene_.gate->position / scene_.grid.spacing[0])) : -1;
   std::vector<bool> closed_;
 };
 

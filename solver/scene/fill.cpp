@@ -43,6 +43,26 @@ double share_of_even_bands(double lower, double upper, double size) {
 
 }  // namespace
 
+double shared_by(const Bed& bed, std::span<const Box> boxes, const Box& cell) {
+  // Of the union of boxes, as of the liquid alone, with each box cut to the cell.
+  if (boxes.empty()) return 0.0;
+  const auto within = [&](const Box& box) {
+    const Box both = common(box, cell);
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (both.upper[axis] <= both.lower[axis]) return 0.0;
+      share *= (both.upper[axis] - both.lower[axis]) / (cell.upper[axis] - cell.lower[axis]);
+    }
+    return share * share_of(bed, both);
+  };
+  const Box& first = boxes.front();
+  const auto rest = boxes.subspan(1);
+  std::vector<Box> shared;
+  shared.reserve(rest.size());
+  for (const Box& other : rest) shared.push_back(common(first, other));
+  return within(first) + shared_by(bed, rest, cell) - shared_by(bed, shared, cell);
+}
+
 double share_of(const Box& box, const Box& cell) {
   double share = 1.0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -23,6 +23,16 @@ inline Vec3 confined_gravity(const Scene& scene) {
   return g;
 }
 
+// The gradient of pressure [Pa/m] along periodic directions that the gas outside an open top has at rest. The
+// tank's own pressure repeats itself there, so that this one works on both phases beside it.
+inline Vec3 gradient_outside(const Scene& scene) {
+  Vec3 gradient{};
+  if (scene.sides[top].kind != SideKind::open) return gradient;
+  const Vec3 g = gravity_of(scene), confined = confined_gravity(scene);
+  for (int d = 0; d < 3; ++d) gradient[d] = scene.gas.density * (g[d] - confined[d]);
+  return gradient;
+}
+
 // -g_y: what presses on the floor [m/s2], >= 0.
 inline double normal_gravity(const Scene& scene) {
   return -gravity_of(scene)[1];

@@ -33,8 +33,8 @@ diameter = 1e-3
 friction = 0
 [contact]
 stiffness = 1e-6
-solid_fraction_max = 0.99
-dense_solid_fraction = 0.98
+solid_fraction_max = 0.65
+dense_solid_fraction = 0.64
 [bed]
 length = 0.04
 height = 0.02
@@ -76,7 +76,8 @@ TEST(RefusedStep, MoreThanACellHoldsWouldLeaveIt) {
   EXPECT_EQ(refused(0.5, 0.0, 0.0, 8.0), "");
 }
 
-// Grains that run into those ahead of them: 0.65 and a tenth of it in a step are more than any packing.
+// Grains that run into those ahead of them: 0.65, the densest that the contacts know, and a tenth of it in a
+// step.
 TEST(RefusedStep, DenserThanGrainsCanBe) {
   EXPECT_EQ(refused(0.65, 1.0, 0.0, 0.0).substr(0, 14), "solid fraction");
   EXPECT_EQ(refused(0.5, 0.1, 0.0, 0.0), "");

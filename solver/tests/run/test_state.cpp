@@ -1,4 +1,5 @@
 // What a bed starts with where the model carries its packing: P_s bears the weight of the grains above.
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,22 @@ TEST(InitialState, ABedOnTheFloorBearsItsWeight) {
   }
   EXPECT_EQ(c.p_s(4), 0.0);
   EXPECT_EQ(c.packing(4), c.tank.scene.contact.solid_fraction_min);
+}
+
+// The water of a level within the bed's last row is that of its pores: volumes to rounding.
+TEST(InitialState, ALevelInTheBedsLastRowFillsItsPores) {
+  for (const double level : {3.2, 3.5, 3.8}) {
+    Scene scene = bed(0, 3, 2500.0);
+    scene.bed->box.upper[1] = 3.5 * h;
+    scene.liquid_boxes = {Box{{0.0, 0.0, 0.0}, {4 * h, level * h, 1.0}}};
+    const Column c(scene);
+    double rows_of_liquid = 0.0;
+    for (int j = 0; j < rows; ++j) {
+      const std::ptrdiff_t at = c.tank.grid.cells.index(1, j, 0);
+      rows_of_liquid += c.state.alpha[at] * (1.0 - c.state.f_s[at]);
+    }
+    EXPECT_NEAR(rows_of_liquid, level - f_s * std::min(level, 3.5), 1e-12) << level;
+  }
 }
 
 TEST(InitialState, LightGrainsUnderALidBearTheirBuoyancy) {

@@ -56,6 +56,13 @@ TEST(StepControl, CourantNumberOfEitherPhase) {
   EXPECT_DOUBLE_EQ(c.control.next(c.state), 0.3 * 0.01 / 4.0);
 }
 
+// A thousandth of grains is next to none beside a bed, and all there is of a dilute cloud.
+TEST(StepControl, GrainsCountByWhatTheirBedHas) {
+  Control c({"numerics.cfl=0.3", "bed.solid_fraction=3e-4"});
+  c.state.u_s[0][c.at(2, 2)] = 3.0;
+  EXPECT_DOUBLE_EQ(c.control.next(c.state), 0.3 * 0.01 / 3.0);
+}
+
 TEST(StepControl, GateAndHold) {
   Control c({"gate.speed=2", "time.hold=0.01"});
   c.state.time = 0.0;

@@ -112,6 +112,22 @@ TEST(Film, IsDrivenFromOutside) {
   EXPECT_NEAR(spent, given, 0.01 * given);
 }
 
+// Over an open top the gas outside is at rest, along a periodic direction too: what is inside is not let fall
+// in it, but goes with the film.
+TEST(Film, DragsTheGasAndIsNotOutrunByIt) {
+  Simulation run(tank({"tank.size=[0.02, 0.02]", "grid.dx=0.0025", "liquid.level=0.01", "liquid.viscosity=1",
+                       "walls.left=periodic", "walls.right=periodic", "walls.top=open", "model.les=false",
+                       "tank.inclination=10"}));
+  const EnergyTerms start = run.now.energy;
+  run.until(1.0);
+  ASSERT_FALSE(HasFatalFailure());
+  const double force = (run.scene.liquid.density - run.scene.gas.density) * gravity_of(run.scene)[0];
+  const double surface = 0.5 * force * 0.01 * 0.01 / run.scene.liquid.viscosity;
+  EXPECT_NEAR(run.now.u_c[0][run.cell(1, 3)], surface, 0.1 * surface);
+  EXPECT_LT(std::fabs(run.now.u_c[0][run.cell(1, 7)]), 1.1 * surface);
+  EXPECT_LT(std::fabs(run.now.energy.residual), 1e-6 * energy_turnover(run.scene, start, run.now.energy));
+}
+
 class Sloshing : public ::testing::TestWithParam<Variant> {};
 
 // A level along the floor is no level: the liquid runs to the lower end, and comes to rest there.

@@ -31,6 +31,16 @@ TEST(Fill, TheUnionCountsACommonPartOnce) {
   EXPECT_DOUBLE_EQ(share_of(boxes, {{0, 0, 0}, {1, 1, 1}}), 0.8);
 }
 
+TEST(Fill, WhatBedAndLiquidShareCountsOnce) {
+  const Box cell{{0, 0, 0}, {1, 1, 1}};
+  const Bed bed{{{0, 0, 0}, {1, 0.5, 1}}, 0.5, 90.0}, heap{{{0, 0, 0}, {2, 1, 1}}, 0.5, 45.0};
+  const std::vector<Box> boxes{{{0, 0.25, 0}, {1, 0.75, 1}}, {{0.5, 0, 0}, {1, 0.5, 1}}};
+  EXPECT_DOUBLE_EQ(shared_by(bed, boxes, cell), 0.375);
+  EXPECT_DOUBLE_EQ(shared_by(heap, boxes, {{1, 0, 0}, {2, 1, 1}}), 0.0);
+  EXPECT_DOUBLE_EQ(shared_by(heap, {boxes.data(), 1}, cell), 0.5);
+  EXPECT_DOUBLE_EQ(shared_by(bed, {}, cell), 0.0);
+}
+
 TEST(Fill, ASlopedFaceCutsCells) {
   const Bed bed{{{0, 0, 0}, {2, 1, 1}}, 0.5, 45.0};  // top face to x = 1, then down to (2, 0)
   EXPECT_DOUBLE_EQ(share_of(bed, {{0, 0, 0}, {1, 1, 1}}), 1.0);
