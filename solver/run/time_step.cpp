@@ -1,5 +1,6 @@
 #include "solver/run/time_step.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,8 +16,8 @@ namespace granvof {
 namespace {
 
 constexpr double largest_outflow = 0.95;  // share of a cell's content that may leave it in one step
-// Beyond it the step's packing is not to be trusted: 0.66 where f_s,max is the paper's.
-constexpr double largest_of_solid_fraction_max = 0.66 / 0.63;
+// Beyond the larger of them the step's packing is not to be trusted; of f_s,max a twentieth.
+constexpr double largest_solid_fraction = 0.66, largest_of_solid_fraction_max = 1.05;
 
 }  // namespace
 
@@ -196,7 +197,8 @@ void TimeStep::carry_solid(Attempt& step) {
   const double* f = next.f_s.data();
   const double densest =
       max_over(grid_.cells, grid_.all_cells(), 0.0, [=](std::ptrdiff_t c) { return f[c]; });
-  if (!(densest <= largest_of_solid_fraction_max * scene_.contact.solid_fraction_max)) {
+  if (!(densest <= std::max(largest_solid_fraction,
+                            largest_of_solid_fraction_max * scene_.contact.solid_fraction_max))) {
     step.report.refused_because = fmt::format("solid fraction {:.3f}", densest);
     step.report.not_finite = !std::isfinite(densest);
     return;

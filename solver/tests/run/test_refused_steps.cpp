@@ -1,6 +1,7 @@
 // Steps that are refused: what a cell holds bounds what may leave it, and packing what may come.
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/run/initial_state.hpp"
@@ -12,8 +13,8 @@ namespace {
 
 // Light grains that hardly press on each other, in as light a fluid, without gravity or drag: what moves goes
 // on.
-Scene drift() {
-  return parse_scene(R"([scene]
+Scene drift(double solid_fraction_max) {
+  return parse_scene(fmt::format(R"([scene]
 name = "drift"
 [tank]
 size = [0.04, 0.02]
@@ -33,8 +34,8 @@ diameter = 1e-3
 friction = 0
 [contact]
 stiffness = 1e-6
-solid_fraction_max = 0.65
-dense_solid_fraction = 0.64
+solid_fraction_max = {}
+dense_solid_fraction = 0.62
 [bed]
 length = 0.04
 height = 0.02
@@ -45,14 +46,16 @@ drag = false
 [time]
 end = 1
 )",
+                                 solid_fraction_max),
                      "drift");
 }
 
 // Why a step of 1 ms is refused where grains of `f_s` in the second column drift at `behind` and `ahead`
 // [m/s] on its two faces, those elsewhere at `ahead`, and the fluid so that nothing flows on balance but a
 // `stream` of both.
-std::string refused(double f_s, double behind, double ahead, double stream) {
-  const Scene scene = drift();
+std::string refused(double f_s, double behind, double ahead, double stream,
+                    double solid_fraction_max = 0.63) {
+  const Scene scene = drift(solid_fraction_max);
   const Grid grid(scene);
   Boundary boundary(grid);
   State now = initial_state(grid, scene, boundary), next(grid);
@@ -80,6 +83,7 @@ TEST(RefusedStep, MoreThanACellHoldsWouldLeaveIt) {
 // step.
 TEST(RefusedStep, DenserThanGrainsCanBe) {
   EXPECT_EQ(refused(0.65, 1.0, 0.0, 0.0).substr(0, 14), "solid fraction");
+  EXPECT_EQ(refused(0.65, 1.0, 0.0, 0.0, 0.74), "");
   EXPECT_EQ(refused(0.5, 0.1, 0.0, 0.0), "");
 }
 
