@@ -41,27 +41,19 @@ double share_of_even_bands(double lower, double upper, double size) {
   return (covered(upper) - covered(lower)) / (upper - lower);
 }
 
-}  // namespace
-
-double shared_by(const Bed& bed, std::span<const Box> boxes, const Box& cell) {
-  // Of the union of boxes, as of the liquid alone, with each box cut to the cell.
+// Share of a union of boxes, from that of each alone: what two cover counts once.
+template <typename Share>
+double of_union(std::span<const Box> boxes, const Share& share) {
   if (boxes.empty()) return 0.0;
-  const auto within = [&](const Box& box) {
-    const Box both = common(box, cell);
-    double share = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (both.upper[axis] <= both.lower[axis]) return 0.0;
-      share *= (both.upper[axis] - both.lower[axis]) / (cell.upper[axis] - cell.lower[axis]);
-    }
-    return share * share_of(bed, both);
-  };
   const Box& first = boxes.front();
   const auto rest = boxes.subspan(1);
-  std::vector<Box> shared;
+  std::vector<Box> shared;  // what the rest covers of the first
   shared.reserve(rest.size());
   for (const Box& other : rest) shared.push_back(common(first, other));
-  return within(first) + shared_by(bed, rest, cell) - shared_by(bed, shared, cell);
+  return share(first) + of_union(rest, share) - of_union(std::span<const Box>(shared), share);
 }
+
+}  // namespace
 
 double share_of(const Box& box, const Box& cell) {
   double share = 1.0;
@@ -102,13 +94,14 @@ double colour_of(const Bed& bed, const Box& cell) {
 }
 
 double share_of(std::span<const Box> boxes, const Box& cell) {
-  if (boxes.empty()) return 0.0;
-  const Box& first = boxes.front();
-  const auto rest = boxes.subspan(1);
-  std::vector<Box> shared;  // what the rest covers of the first
-  shared.reserve(rest.size());
-  for (const Box& other : rest) shared.push_back(common(first, other));
-  return share_of(first, cell) + share_of(rest, cell) - share_of(std::span<const Box>(shared), cell);
+  return of_union(boxes, [&](const Box& box) { return share_of(box, cell); });
+}
+
+double shared_by(const Bed& bed, std::span<const Box> boxes, const Box& cell) {
+  return of_union(boxes, [&](const Box& box) {
+    const double share = share_of(box, cell);
+    return share > 0.0 ? share * share_of(bed, common(box, cell)) : 0.0;
+  });
 }
 
 }  // namespace granvof
