@@ -9,7 +9,7 @@ import termios
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-RUN = [ROOT / "build/release/solver/granvof", "run", ROOT / "cases/canary.toml", "--set", "grid.dx=0.001"]
+RUN = [ROOT / "build/release/solver/granvof", "run", ROOT / "cases/canary.toml", "--set", "grid.dx=0.00025"]  # long: it is ended once it has plotted
 
 
 def test_the_front_is_plotted_in_a_terminal_and_neither_in_a_pipe_nor_in_the_log(tmp_path):
