@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import pytest
@@ -24,23 +23,9 @@ esac
 """
 
 
-def until(true, longest=60.0):
-    end = time.monotonic() + longest
-    while not true() and time.monotonic() < end:
-        time.sleep(0.02)
-    return true()
-
-
-def lives(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
-
-
 @pytest.mark.parametrize("name", ["TERM", "KILL"])
 @pytest.mark.parametrize("script", STARTED)
-def test_what_was_started_ends_with_who_started_it(tmp_path, shell, script, name):
+def test_what_was_started_ends_with_who_started_it(tmp_path, shell, until, lives, script, name):
     words, program, word = STARTED[script]
     for path in ("solver/granvof", "compare/granvof-compare", "reference/demvof/demvof"):
         (tmp_path / "build" / path).parent.mkdir(parents=True, exist_ok=True)
@@ -49,7 +34,7 @@ def test_what_was_started_ends_with_who_started_it(tmp_path, shell, script, name
     given = {"BUILD": tmp_path / "build", "OUT": tmp_path / "out", "SERIES": tmp_path / "series.csv"}
     running = subprocess.Popen([ROOT / script.split()[0], *(given.get(part, part) for part in words)], stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
-    started = until(lambda: (tmp_path / "pid").exists() or running.poll() is not None)
+    started = until(lambda: (tmp_path / "pid").exists() or running.poll() is not None, 60.0)
     assert started and running.poll() is None, running.stderr.read()
     pid = int((tmp_path / "pid").read_text())
     running.send_signal(getattr(signal, "SIG" + name))

@@ -63,23 +63,7 @@ def test_missing_part_and_missing_program(tmp_path):
 PATIENCE = 120.0  # seconds that a busy machine may take for what takes a moment
 
 
-def within_patience(condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < deadline:
-        time.sleep(0.05)
-    return condition()
-
-
-def is_gone(pid):
-    """An orphan is reaped by whoever adopts it, soon after its end."""
-    try:
-        with open(f"/proc/{pid}/stat") as stat:
-            return stat.read().rsplit(")", 1)[1].split()[0] == "Z"
-    except FileNotFoundError:
-        return True
-
-
-def test_watchdog_ends_the_stage_and_its_children(tmp_path, monkeypatch):
+def test_watchdog_ends_the_stage_and_its_children(tmp_path, monkeypatch, until, lives):
     monkeypatch.setattr(stages, "GRACE", 0.5)
     # The child ignores the polite request and would outlive its parent.
     child = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); open('up', 'w').close(); time.sleep(1000)"
@@ -96,7 +80,7 @@ def test_watchdog_ends_the_stage_and_its_children(tmp_path, monkeypatch):
         if (place / "up").exists() and (place / "pid").exists():
             break
     pid = int((place / "pid").read_text())
-    assert (place / "up").exists() and within_patience(lambda: is_gone(pid))
+    assert (place / "up").exists() and until(lambda: not lives(pid), PATIENCE)
 
 
 def test_time_limit_is_for_the_stage_as_a_whole(tmp_path):
