@@ -387,13 +387,11 @@ constexpr std::array table{
         none, energy_closure},
     MetricEntry{"ledger_share", "-",
                 "what a scheme (a term of the ledger, or numerical: all of them) took by the end of the "
-                "energy turned over; "
-                "negative: gave",
+                "energy turned over; negative: gave",
                 Needs{.scheme = true}, ledger_share},
     MetricEntry{"ledger_order", "-",
                 "power of the cell, or of the step where cells are the same, with which what a scheme took "
-                "vanishes, from a "
-                "coarser run to this one",
+                "vanishes, from a coarser run to this one",
                 Needs{.against = true, .scheme = true}, ledger_order},
     MetricEntry{"energy_created", "-",
                 "energy that schemes, and solid pressure that nothing pays for, gave by the end, over what "
