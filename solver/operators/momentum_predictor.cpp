@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/operators/convection.hpp"
+#include "solver/operators/mass_consistent_convection.hpp"
 #include "solver/scene/gravity.hpp"
 #include "solver/scene/parts.hpp"
 
@@ -15,37 +16,76 @@ MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const
       limited_(closures::is_of_second_order(scene.numerics.transport_scheme)),
       solid_(grid),
       fluid_(grid),
-      convective_(grid) {}
+      convective_(grid) {
+  if (scene.numerics.solid_convection == Convection::mass_consistent && has_grains(scene))
+    solid_mass_ = Field(grid);
+  if (scene.numerics.fluid_convection == Convection::mass_consistent && has_liquid(scene))
+    fluid_mass_ = Field(grid);
+}
 
-void MomentumPredictor::convect_fluid(const State& now, const FaceInertia& inertia, int d) {
-  const Range faces = grid_.fluid_faces(d);
-  if (limited_ && has_liquid(scene_)) {
-    const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
-    upwind_power_ += grid_.cell_volume *
-                     convective_acceleration_limited_in(inertia.fluid[d], between_gas_and_liquid, grid_,
-                                                        boundary_.walls(), now.u_c, d, faces, convective_[d]);
-  } else {
-    upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.fluid[d], grid_, boundary_.walls(),
-                                                                 now.u_c, d, faces, limited_, convective_[d]);
+// A fluid of one density fills no face.
+void MomentumPredictor::set_masses(const State& now) {
+  const double rho_s = scene_.solid.density, rho_l = scene_.liquid.density, rho_g = scene_.gas.density;
+  const double *f = now.f_s.data(), *a = now.alpha.data();
+  if (!solid_mass_.empty()) {
+    double* m = solid_mass_.data();
+    for_each(grid_.cells, grid_.cells_and_ghosts(2), [=](std::ptrdiff_t c) { m[c] = f[c] * rho_s; });
   }
+  if (!fluid_mass_.empty()) {
+    double* m = fluid_mass_.data();
+    for_each(grid_.cells, grid_.cells_and_ghosts(2),
+             [=](std::ptrdiff_t c) { m[c] = (1.0 - f[c]) * mixture(a[c], rho_l, rho_g); });
+  }
+}
+
+void MomentumPredictor::convect_solid(double dt, const State& now, const FaceInertia& inertia, int d) {
+  const Range faces = grid_.inner_faces(d);
+  if (!solid_mass_.empty()) {
+    upwind_power_ += grid_.cell_volume *
+                     convect_with_mass(solid_mass_, limited_, 0.0, grid_, now.u_s, d, faces, dt, solid_[d]);
+    return;
+  }
+  upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.solid[d], grid_, boundary_.walls(),
+                                                               now.u_s, d, faces, limited_, solid_[d]);
+  bound_convection(grid_, now.u_s, d, faces, dt, inertia.f_s[d], solid_that_counts_in(scene_), solid_[d]);
+}
+
+void MomentumPredictor::convect_fluid(double dt, const State& now, const FaceInertia& inertia, int d) {
+  const double between_gas_and_liquid = std::sqrt(scene_.gas.density * scene_.liquid.density);
+  const auto advect = [&](const Range& faces) {
+    upwind_power_ +=
+        grid_.cell_volume *
+        (limited_ && has_liquid(scene_)
+             ? convective_acceleration_limited_in(inertia.fluid[d], between_gas_and_liquid, grid_,
+                                                  boundary_.walls(), now.u_c, d, faces, convective_[d])
+             : convective_acceleration(inertia.fluid[d], grid_, boundary_.walls(), now.u_c, d, faces,
+                                       limited_, convective_[d]));
+  };
+  if (fluid_mass_.empty()) return advect(grid_.fluid_faces(d));
+  // what fills the half cell of a side comes from beyond it, at a velocity of its own
+  grid_.for_each_passing_side([&](int e, bool upper) {
+    if (e == d) advect(grid_.side_faces(d, upper));
+  });
+  upwind_power_ +=
+      grid_.cell_volume * convect_with_mass(fluid_mass_, limited_, between_gas_and_liquid, grid_, now.u_c, d,
+                                            grid_.inner_faces(d), dt, convective_[d]);
 }
 
 void MomentumPredictor::update(double dt, const State& now, const FaceInertia& inertia,
                                const FluidViscosity& viscosity, const Aperture& aperture,
                                const BodyAcceleration* extra) {
   upwind_power_ = viscous_power_ = 0.0;
+  set_masses(now);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
     const double outside = gradient_outside(scene_)[d], on_solid = outside / scene_.solid.density;
     const Range fluid = grid_.fluid_faces(d), solid = grid_.inner_faces(d);
-    convect_fluid(now, inertia, d);
+    convect_fluid(dt, now, inertia, d);
     fluid_[d] = convective_[d];
     viscosity.add_acceleration(now.u_c, inertia, d, fluid, fluid_[d]);
     viscous_power_ += viscosity.power_on(now.u_c, inertia, d, convective_[d], fluid_[d]);
-    upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.solid[d], grid_, boundary_.walls(),
-                                                                 now.u_s, d, solid, limited_, solid_[d]);
-    bound_convection(grid_, now.u_s, d, solid, dt, inertia.f_s[d], solid_that_counts_in(scene_), solid_[d]);
+    convect_solid(dt, now, inertia, d);
     const double *open = aperture[d].data(), *f = inertia.f_s[d].data(), *m = inertia.fluid[d].data();
     const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
     double *c_star = fluid_[d].data(), *s_star = solid_[d].data();

@@ -35,7 +35,9 @@ class MomentumPredictor {
   double viscous_power() const { return viscous_power_; }
 
  private:
-  void convect_fluid(const State& now, const FaceInertia& inertia, int d);
+  void convect_fluid(double dt, const State& now, const FaceInertia& inertia, int d);
+  void convect_solid(double dt, const State& now, const FaceInertia& inertia, int d);
+  void set_masses(const State& now);
   void add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d);
 
   const Grid& grid_;
@@ -43,6 +45,7 @@ class MomentumPredictor {
   const Boundary& boundary_;
   bool limited_;
   FaceField solid_, fluid_, convective_;
+  Field solid_mass_, fluid_mass_;  // f_s rho_s, f_c rho_c of cells [kg/m3], where momentum goes by them
   double upwind_power_ = 0.0, viscous_power_ = 0.0;
 };
 

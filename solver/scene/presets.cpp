@@ -28,6 +28,15 @@ const std::vector<Choice>& choices() {
        .reason =
            "Second order, bounded; the steepest flux of f_s (superbee, Roe 1985) keeps the bed's surface "
            "sharp, which upwind smears over three or four cells that run on as a density current."},
+      {.key = "numerics.solid_convection",
+       .sourced = "mass-consistent",
+       .reason =
+           "Conserves momentum with mass (Rudman 1998): by its own speed a face that grains reach holds "
+           "them up, on every grid. Not with upwind solid_flux, whose smeared fronts it lets run."},
+      {.key = "numerics.fluid_convection",
+       .advised = "mass-consistent",
+       .sourced = "mass-consistent",
+       .reason = "The same: by its own speed a face that liquid reaches in a gas holds it up."},
       {.key = "numerics.bed_surface",
        .advised = "part-cells",
        .sourced = "part-cells",

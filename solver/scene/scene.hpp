@@ -166,6 +166,10 @@ struct Model {
 enum class ContactPressure { implicit, explicit_ };
 enum class InterfaceScheme { cicsam, plic, upwind };
 
+// How a phase carries its momentum: by the speed of the face that takes it up, or with its mass
+// (conservative).
+enum class Convection { advective, mass_consistent };
+
 // Contact in cells that the bed fills in part: none (the paper), or of the grains' own weight.
 enum class BedSurface { whole_cells, part_cells };
 
@@ -174,6 +178,7 @@ struct Numerics {
   double dt_max = 5e-3;           // [s]
   double dt_min = 1e-9;           // a refused step that would be shorter ends the run [s]
   SlopeLimiter transport_scheme;  // of f_s; of second order it makes both momenta so, by van Leer's
+  Convection solid_convection = Convection::advective, fluid_convection = Convection::advective;
   BedSurface bed_surface = BedSurface::whole_cells;
   InterfaceScheme interface_scheme = InterfaceScheme::cicsam;
   ContactPressure contact_pressure = ContactPressure::implicit;

@@ -1,0 +1,25 @@
+// Momentum that a phase brings to faces which its mass has only begun to reach.
+//
+// The advective form, -(u . grad) u, moves velocities and asks for no mass: a face takes up momentum at its
+// own speed. Where a front of grains or water arrives there is next to no mass yet and the speed is the
+// gas's, so that what arrives is stopped there, on every grid: a cloud in free fall piles up in its own
+// front. (5) and (6) say what its speed becomes: with the mass m of the face's control volume and the mass
+// fluxes F into it, by which that mass grows,
+//   d(m u)/dt = sum F u_up,  dm/dt = sum F   =>   m_new (u_new - u) = dt sum_in F (u_up - u),
+// the upwind form of conservation of mass and momentum together (Rudman 1998, Int. J. Numer. Meth. Fluids
+// 28). Where the phase is everywhere both forms are one but for what the grid smears. Equations:
+// docs/theory/balances.md.
+#pragma once
+
+#include "solver/grid/field.hpp"
+
+namespace granvof {
+
+// Convective acceleration [m/s2] of component d on `faces` (inner ones). m: mass of the phase [kg/m3] in
+// cells, u its velocity [m/s], two layers of ghosts of both filled; dt [s] > 0. `limited`: by van Leer's
+// reconstruction where a face and its donor hold more than `least` [kg/m3] and the step is short for them,
+// else upwind. Returns what convective_acceleration() does [W/m3].
+double convect_with_mass(const Field& m, bool limited, double least, const Grid& grid, const FaceField& u,
+                         int d, const Range& faces, double dt, Field& acceleration);
+
+}  // namespace granvof
