@@ -15,6 +15,9 @@ namespace {
 constexpr double largest_volume_error = 1e-9;  // of the solid and of the liquid; rounding gives 1e-14
 constexpr double lowest_fraction = -1e-9;
 constexpr double largest_energy_residual = 0.01;  // of the energy turned over
+// At rest next to none is, and what a pressure solve leaves of continuity still works against all that the
+// tank stores: that counts by this share of it.
+constexpr double least_share_of_store_at_rest = 1e-3;
 // Of what physics dissipated and what is in motion. First-order volume transport lifts what it spreads. Where
 // half of what is dissipated was never there the flow is numerics.
 constexpr double largest_energy_created = 0.5;
@@ -49,9 +52,17 @@ double created_beside_misplaced(const EnergyTerms& e) {
 }
 
 // Without gravity a tank at rest stores nothing to take shares of: then of the scene's own energy.
+double energy_at_hand(const Scene& scene, const EnergyTerms& start) {
+  return std::fabs(start.stored()) + scales_of(scene).energy;
+}
+
 double least_energy(const Scene& scene, const EnergyTerms& start) {
-  return least_share_of_store * (std::fabs(start.stored()) + scales_of(scene).energy) +
-         least_share_of_bed * energy_of_bed(scene);
+  return least_share_of_store * energy_at_hand(scene, start) + least_share_of_bed * energy_of_bed(scene);
+}
+
+double share_of_residual(const Watched& w) {
+  return std::fabs(w.state.energy.residual) /
+         (w.turnover + least_share_of_store_at_rest * energy_at_hand(w.scene, w.start));
 }
 
 }  // namespace
@@ -97,8 +108,7 @@ std::span<const Alarm> Alarms::list() {
       Alarm{"energy residual", parts::ledger,
             "momentum or continuity is not solved well enough, or an operator misstates its work: the energy "
             "budget does not close",
-            [](const Watched& w) { return std::fabs(w.state.energy.residual) / w.turnover; },
-            [](const Watched&) { return largest_energy_residual; }},
+            share_of_residual, [](const Watched&) { return largest_energy_residual; }},
       Alarm{"energy created", parts::ledger,
             "numerics or the uncharged work of P_s^EF give the flow energy from nothing",
             [](const Watched& w) { return energy_created(w.scene, w.state.energy); },

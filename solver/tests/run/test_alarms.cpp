@@ -290,6 +290,16 @@ TEST_F(AlarmRules, EachLimitRaisesItsOwnAlarm) {
   EXPECT_EQ(raised(moving(), 2)[0].monitor, "friction solves");
 }
 
+// A bed that hardly sinks in a deep tank: what the solves leave is a share of what the tank stores.
+TEST_F(AlarmRules, AtRestAResidualIsHeldAgainstWhatIsStored) {
+  EnergyTerms still = start();
+  still.residual = 1e-5 * still.stored();
+  EXPECT_TRUE(raised(still).empty());
+  still.residual = 2e-5 * still.stored();
+  ASSERT_EQ(raised(still).size(), 1U);
+  EXPECT_EQ(raised(still)[0].monitor, std::string("energy residual"));
+}
+
 TEST_F(AlarmRules, AStartThatSpringsApartIsSaid) {
   for (const double share : {0.99, 1.01}) {
     EnergyTerms tight = start();
