@@ -21,7 +21,8 @@ namespace granvof {
 double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now);
 
 // What numerics, and the work of solid pressure that nothing pays for, gave the flow so far, as a share of
-// what physics dissipated, is in motion or was carried out [-]. A flow that does next to nothing counts by a
+// what it was given otherwise: by its stores, the walls and the sides [-]. What was created is in motion, or
+// was dissipated, too: a share of that would never pass a half. A flow that does next to nothing counts by a
 // hundredth of the bed's own energy.
 double energy_created(const Scene& scene, const EnergyTerms& now);
 
