@@ -62,6 +62,9 @@ std::span<const MonitorEntry> monitors_of_a_run() {
                    "what numerics, and work that nothing pays for, gave the flow, as a share of what it was "
                    "given otherwise",
                    [](const RunSoFar& run) { return energy_created(run.scene, run.loop.now().energy); }},
+      MonitorEntry{"energy_destroyed", parts::ledger, "-",
+                   "what numerics took from the flow, as a share of all that became of its energy",
+                   [](const RunSoFar& run) { return energy_destroyed(run.scene, run.loop.now().energy); }},
   };
   return list;
 }
