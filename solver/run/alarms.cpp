@@ -21,8 +21,8 @@ constexpr double least_share_of_store_at_rest = 1e-3;
 // Of what the flow was given. First-order volume transport lifts what it spreads: columns of few cells get
 // 0.7 so.
 constexpr double largest_energy_created = 0.8;
-// Of what became of it. Where schemes take more than all that physics does the flow is numerics. Collapses
-// get to 0.3, a bed that floats up to 0.4.
+// Of what became of it. Where schemes take more than all that physics does the flow is numerics. S1 and
+// S2 get to 0.27, a bed that floats up against drag to 0.4.
 constexpr double largest_energy_destroyed = 0.5;
 constexpr double largest_share_of_bounds = 0.01;  // the same, taken by the bounds on Theta
 // Contacts that store more than the bed's own height does: such a bed is not at rest but springs apart, by an
