@@ -395,7 +395,7 @@ constexpr std::array table{
                 Needs{.against = true, .scheme = true}, ledger_order},
     MetricEntry{"energy_created", "-",
                 "energy that schemes, and solid pressure that nothing pays for, gave by the end, over what "
-                "physics dissipated and is in motion",
+                "the flow was given otherwise",
                 none, energy_created},
     MetricEntry{"warnings", "-", "monitors of the run that passed their limits", none, warnings},
     MetricEntry{"core_seconds", "core-s", "CPU time of the time loop", none, core_seconds, nullptr, true},

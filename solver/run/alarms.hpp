@@ -21,9 +21,14 @@ namespace granvof {
 double energy_turnover(const Scene& scene, const EnergyTerms& start, const EnergyTerms& now);
 
 // What numerics, and the work of solid pressure that nothing pays for, gave the flow so far, as a share of
-// what physics dissipated, is in motion or was carried out [-]. A flow that does next to nothing counts by a
+// what it was given otherwise: by its stores, the walls and the sides [-]. What was created is in motion, or
+// was dissipated, too: a share of that would never pass a half. A flow that does next to nothing counts by a
 // hundredth of the bed's own energy.
 double energy_created(const Scene& scene, const EnergyTerms& now);
+
+// What numerics took from the flow so far, as a share of all that became of its energy: dissipated, in
+// motion, carried out, or taken so [-]. Next to nothing counts as above.
+double energy_destroyed(const Scene& scene, const EnergyTerms& now);
 
 struct StepCounts {
   std::int64_t steps = 0, unconverged_friction = 0, refused = 0;
@@ -45,6 +50,8 @@ struct Alarm {
   const char* meaning;
   double (*value)(const Watched&);
   double (*limit)(const Watched&);  // which the value must not exceed
+  // What a warning adds to the meaning, of the step that passed the limit first.
+  std::string (*detail)(const Watched&) = nullptr;
 };
 
 class Alarms {
@@ -62,7 +69,7 @@ class Alarms {
   void restore(std::vector<Warning> raised) { raised_ = std::move(raised); }
 
  private:
-  void watch(const Alarm& alarm, double value, double limit, double time);
+  void watch(const Alarm& alarm, const Watched& watched);
 
   const Scene& scene_;
   EnergyTerms start_;

@@ -59,9 +59,12 @@ std::span<const MonitorEntry> monitors_of_a_run() {
           "energy that the run turned over, which its errors are shares of",
           [](const RunSoFar& run) { return energy_turnover(run.scene, run.start, run.loop.now().energy); }},
       MonitorEntry{"energy_created", parts::ledger, "-",
-                   "what numerics, and work that nothing pays for, gave the flow, as a share of what physics "
-                   "dissipated and is in motion",
+                   "what numerics, and work that nothing pays for, gave the flow, as a share of what it was "
+                   "given otherwise",
                    [](const RunSoFar& run) { return energy_created(run.scene, run.loop.now().energy); }},
+      MonitorEntry{"energy_destroyed", parts::ledger, "-",
+                   "what numerics took from the flow, as a share of all that became of its energy",
+                   [](const RunSoFar& run) { return energy_destroyed(run.scene, run.loop.now().energy); }},
   };
   return list;
 }

@@ -19,6 +19,7 @@ double unaccounted(double now, double at_start, double left, double tank) {
 Monitors::Monitors(const Grid& grid, const Scene& scene, const State& start)
     : grid_(grid),
       tank_(scene.tank[0] * scene.tank[1] * scene.tank[2]),
+      rho_s_(scene.solid.density),
       solid_volume_(solid_volume(start)),
       liquid_volume_(liquid_volume(start)) {
   update(start, 0.0, 0.0);
@@ -48,11 +49,16 @@ void Monitors::update(const State& s, double liquid_left, double solid_left) {
 }
 
 double Monitors::load_on_outlets(const State& s) const {
-  const double* p = s.p_s.data();
+  const double *p = s.p_s.data(), *f = s.f_s.data(), rho_s = rho_s_;
   double load = 0.0;
   grid_.for_each_passing_side([&](int d, bool upper) {
-    if (grid_.tank_side(d, upper).passes_grains)
-      load = max_over(grid_.cells, grid_.side_cells(d, upper), load, [=](std::ptrdiff_t c) { return p[c]; });
+    if (!grid_.tank_side(d, upper).passes_grains) return;
+    const double *u = s.u_s[d].data(), sign = upper ? 1.0 : -1.0;
+    const std::ptrdiff_t beside = upper ? grid_.stride(d) : 0;
+    load = max_over(grid_.cells, grid_.side_cells(d, upper), load, [=](std::ptrdiff_t c) {
+      const double leaving = std::max(sign * u[c + beside], 0.0);
+      return p[c] - rho_s * f[c] * leaving * leaving;
+    });
   });
   return load;
 }

@@ -42,7 +42,8 @@ class Monitors {
   double load_on_outlets(const State& s) const;
 
   const Grid& grid_;
-  double tank_;  // [m3]
+  double tank_;   // [m3]
+  double rho_s_;  // [kg/m3]
   double solid_volume_ = 0.0, liquid_volume_ = 0.0, liquid_left_ = 0.0, solid_left_ = 0.0;
   double solid_error_ = 0.0, liquid_error_ = 0.0, solid_max_ = 0.0, solid_min_ = 1.0;
   double outlet_load_ = 0.0;

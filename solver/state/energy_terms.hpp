@@ -38,6 +38,8 @@ struct EnergyTerms {
   // What came from nowhere: every numerical term that is a gain, and the work of solid pressure that nothing
   // pays for. What one scheme takes does not make up for what another gives.
   double created() const;
+  // What went nowhere: every numerical term that is a loss.
+  double destroyed() const;
   // Stored less what the terms put there: what is not accounted for of a step that began at `before` [J].
   double left_by(const EnergyTerms& before) const;
   // Takes the terms of a step that led from the present state.
@@ -183,6 +185,13 @@ inline double EnergyTerms::created() const {
   double sum = dense_excess > 0.0 ? dense_excess : 0.0;
   for (const EnergyTerm& term : energy_terms)
     if (term.kind == EnergyKind::numerical && this->*term.value < 0.0) sum -= this->*term.value;
+  return sum;
+}
+
+inline double EnergyTerms::destroyed() const {
+  double sum = 0.0;
+  for (const EnergyTerm& term : energy_terms)
+    if (term.kind == EnergyKind::numerical && this->*term.value > 0.0) sum += this->*term.value;
   return sum;
 }
 

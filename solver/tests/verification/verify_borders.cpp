@@ -45,18 +45,23 @@ TEST_P(Holds, EndsAndWarnsOfNothingElse) {
 }
 
 // The ends of every axis along which nothing failed, and the near side of the borders. Fluxes of first order
-// on so few cells make, at some of them, more than half of what physics dissipates.
+// on so few cells make, at some of them, as much as the flow was given; of a bed that springs apart numerics
+// take most.
 INSTANTIATE_TEST_SUITE_P(
     Borders, Holds,
     ::testing::Values(
-        Point{"collapse", {}}, Point{"float", {}, {"energy created"}}, Point{"slosh", {}},
+        Point{"collapse", {}}, Point{"float", {}}, Point{"slosh", {}},
         Point{"collapse", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}},
         Point{"float", {"numerics.cfl=0.9", "numerics.dt_max=0.3"}, {"energy created"}},
         Point{"slosh", {"liquid.viscosity=1e-6"}}, Point{"slosh", {"liquid.viscosity=100"}},
-        Point{"collapse", {"bed.solid_fraction=0.585"}, {"elastic start", "energy created"}},
-        Point{"collapse", {"bed.solid_fraction=0.629"}, {"elastic start", "energy created"}},
-        Point{"collapse", {"bed.solid_fraction=0.629", "solid.friction=0"}, {"elastic start"}},
-        Point{"collapse", {"bed.solid_fraction=0.61", "solid.friction=0"}, {"elastic start"}},
+        Point{"collapse", {"bed.solid_fraction=0.585"}, {"elastic start", "energy destroyed"}},
+        Point{"collapse", {"bed.solid_fraction=0.629"}, {"elastic start", "energy destroyed"}},
+        Point{"collapse",
+              {"bed.solid_fraction=0.629", "solid.friction=0"},
+              {"elastic start", "energy destroyed"}},
+        Point{"collapse",
+              {"bed.solid_fraction=0.61", "solid.friction=0"},
+              {"elastic start", "energy destroyed"}},
         Point{"collapse", {"bed.solid_fraction=1e-7"}}, Point{"collapse", {"gas.density=0.1"}},
         Point{"collapse", {"gas.density=1000"}}, Point{"slosh", {"gas.density=0.1"}},
         Point{"float", {"solid.density=50"}, {"energy created"}}, Point{"float", {"solid.density=950"}},
