@@ -68,7 +68,8 @@ double convect(const Field& mass, double least, const Grid& grid, const FaceFiel
       a[c] = 0.0;
       return 0.0;
     }
-    a[c] = (brought + beyond) / next;
+    // of a face that is drained within the step little is left for what its sides carry beyond the upwind
+    a[c] = (brought + std::min(1.0, 1.5 * next / old) * beyond) / next;
     return -v[c] * (old * a[c] - central);
   };
   const Sums<1> sums = sum_rows(grid.cells, faces, [=](std::ptrdiff_t start, int n) {

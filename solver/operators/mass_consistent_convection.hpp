@@ -1,14 +1,13 @@
-// Momentum that a phase brings to faces which its mass has only begun to reach.
+// Convection of momentum with the mass that carries it.
 //
 // The advective form, -(u . grad) u, moves velocities and asks for no mass: a face takes up momentum at its
 // own speed. Where a front of grains or water arrives there is next to no mass yet and the speed is the
 // gas's, so that what arrives is stopped there, on every grid: a cloud in free fall piles up in its own
-// front. (5) and (6) say what its speed becomes: with the mass m of the face's control volume and the mass
-// fluxes F into it, by which that mass grows,
-//   d(m u)/dt = sum F u_up,  dm/dt = sum F   =>   m_new (u_new - u) = dt sum_in F (u_up - u),
-// the upwind form of conservation of mass and momentum together (Rudman 1998, Int. J. Numer. Meth. Fluids
-// 28). Where the phase is everywhere both forms are one but for what the grid smears. Equations:
-// docs/theory/balances.md.
+// front. (5) and (6) conserve momentum and mass together: with the mass m of the face's control volume and
+// the mass fluxes F into it (negative out of it),
+//   m_new = m + dt sum F,   m_new (u_new - u) = dt sum F (u_side - u),
+// u_side upwind or limited (for two fluids Rudman 1998, Int. J. Numer. Meth. Fluids 28).
+// Equations: docs/theory/choices.md.
 #pragma once
 
 #include "solver/grid/field.hpp"

@@ -29,14 +29,14 @@ const std::vector<Choice>& choices() {
            "Second order, bounded; the steepest flux of f_s (superbee, Roe 1985) keeps the bed's surface "
            "sharp, which upwind smears over three or four cells that run on as a density current."},
       {.key = "numerics.solid_convection",
-       .sourced = "mass-consistent",
        .reason =
-           "Conserves momentum with mass (Rudman 1998): by its own speed a face that grains reach holds "
-           "them up, on every grid. Not with upwind solid_flux, whose smeared fronts it lets run."},
+           "Conserves momentum with mass (Rudman 1998), so that grains fall freely as they should. No preset "
+           "has it: it lets smeared toes of a bed run that friction hardly holds."},
       {.key = "numerics.fluid_convection",
        .advised = "mass-consistent",
-       .sourced = "mass-consistent",
-       .reason = "The same: by its own speed a face that liquid reaches in a gas holds it up."},
+       .reason =
+           "Conserves momentum with mass (Rudman 1998): by its own speed a face that liquid reaches in a "
+           "gas holds it up, on every grid."},
       {.key = "numerics.bed_surface",
        .advised = "part-cells",
        .sourced = "part-cells",
