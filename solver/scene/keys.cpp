@@ -156,15 +156,12 @@ std::vector<Key> numerics_keys() {
           MEMBER(scene.numerics.transport_scheme),
           "Flux of f_s and convection of both momenta: " + sources_of<closures::SlopeLimiters>() +
               "; the latter two of second order, bounded; that of a gas over a liquid stays of first order."),
-      came_later(
-          choice(parts::momentum, "numerics.solid_convection", convections,
-                 MEMBER(scene.numerics.solid_convection),
-                 "Convection of the grains' momentum: a face takes it up at its own speed, or with the "
-                 "mass that brings it."),
-          R"("advective")"),
-      came_later(choice(parts::momentum, "numerics.fluid_convection", convections,
-                        MEMBER(scene.numerics.fluid_convection), "The same of liquid and gas."),
-                 R"("advective")"),
+      choice(parts::momentum, "numerics.solid_convection", convections,
+             MEMBER(scene.numerics.solid_convection),
+             "Convection of the grains' momentum: a face takes it up at its own speed, or with the "
+             "mass that brings it."),
+      choice(parts::momentum, "numerics.fluid_convection", convections,
+             MEMBER(scene.numerics.fluid_convection), "The same of liquid and gas."),
       // Which grains bear load is physics, whatever table it stands in.
       scoped(
           came_later(
