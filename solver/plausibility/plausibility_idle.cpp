@@ -123,7 +123,9 @@ std::vector<Idle> all_idle() {
       {{"model.viscous_contact_pressure", "model.suspension_viscosity"},
        has_liquid,
        "it is of grains in a viscous liquid, and the scene has none"},
-      {{"numerics.interface_scheme"}, has_liquid, without + "a liquid beside the gas"},
+      {{"numerics.interface_scheme", "numerics.fluid_convection"},
+       has_liquid,
+       without + "a liquid beside the gas"},
       {{"bed.colour"}, model(&Model::colour), without + "model.colour: the bands stay where they are"},
   };
 }

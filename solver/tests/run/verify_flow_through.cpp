@@ -127,7 +127,7 @@ TEST(Outlet, DrainsAPoolToItsLevel) {
                           "walls.top=open", "liquid.viscosity=2"}));
   Account account(run);
   const double before = account.monitors.liquid_volume(run.now);
-  account.until(4.0);
+  account.until(5.0);
   ASSERT_FALSE(HasFatalFailure());
   const double after = account.monitors.liquid_volume(run.now);
   EXPECT_NEAR(after, 0.12 * 0.02, 0.02 * after);
