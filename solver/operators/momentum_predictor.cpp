@@ -17,9 +17,11 @@ MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const
       solid_(grid),
       fluid_(grid),
       convective_(grid) {
-  if (scene.numerics.solid_convection == Convection::mass_consistent && has_grains(scene))
+  const bool free_of_walls = grid.obstacles.solid() == nullptr;  // beside obstacles momentum is advected
+
+  if (scene.numerics.solid_convection == Convection::mass_consistent && free_of_walls && has_grains(scene))
     solid_mass_ = Field(grid);
-  if (scene.numerics.fluid_convection == Convection::mass_consistent && has_liquid(scene))
+  if (scene.numerics.fluid_convection == Convection::mass_consistent && free_of_walls && has_liquid(scene))
     fluid_mass_ = Field(grid);
 }
 
@@ -41,8 +43,8 @@ void MomentumPredictor::set_masses(const State& now) {
 void MomentumPredictor::convect_solid(double dt, const State& now, const FaceInertia& inertia, int d) {
   const Range faces = grid_.inner_faces(d);
   if (!solid_mass_.empty()) {
-    upwind_power_ += grid_.cell_volume * convect_with_mass(solid_mass_, limited_ && boundary_.walls().none(),
-                                                           0.0, grid_, now.u_s, d, faces, dt, solid_[d]);
+    upwind_power_ += grid_.cell_volume *
+                     convect_with_mass(solid_mass_, limited_, 0.0, grid_, now.u_s, d, faces, dt, solid_[d]);
     return;
   }
   upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.solid[d], grid_, boundary_.walls(),
@@ -66,9 +68,9 @@ void MomentumPredictor::convect_fluid(double dt, const State& now, const FaceIne
   grid_.for_each_passing_side([&](int e, bool upper) {
     if (e == d) advect(grid_.side_faces(d, upper));
   });
-  upwind_power_ += grid_.cell_volume * convect_with_mass(fluid_mass_, limited_ && boundary_.walls().none(),
-                                                         between_gas_and_liquid, grid_, now.u_c, d,
-                                                         grid_.inner_faces(d), dt, convective_[d]);
+  upwind_power_ +=
+      grid_.cell_volume * convect_with_mass(fluid_mass_, limited_, between_gas_and_liquid, grid_, now.u_c, d,
+                                            grid_.inner_faces(d), dt, convective_[d]);
 }
 
 void MomentumPredictor::update(double dt, const State& now, const FaceInertia& inertia,
