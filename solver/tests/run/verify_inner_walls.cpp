@@ -186,7 +186,7 @@ std::vector<Walls> all_walls() {
       const Set both = joined({open_top,
                                water,
                                {"solid=false", std::string("numerics.interface_scheme=") + scheme,
-                                std::string("numerics.solid_flux=") + flux}});
+                                std::string("numerics.fluid_convection=advective", "numerics.solid_flux=") + flux}});
       const std::string what = std::string("water_") + scheme + "_" + flux;
       all.push_back(floor_of_obstacles(what, both, false));
       all.push_back(wall_of_obstacles(what, both));
