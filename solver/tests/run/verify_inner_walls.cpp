@@ -183,10 +183,11 @@ std::vector<Walls> all_walls() {
   all.push_back(deep_wall);
   for (const char* scheme : {"cicsam", "plic"}) {
     for (const char* flux : {"upwind", "limited"}) {
-      const Set both = joined({open_top,
-                               water,
-                               {"solid=false", std::string("numerics.interface_scheme=") + scheme,
-                                std::string("numerics.fluid_convection=advective", "numerics.solid_flux=") + flux}});
+      const Set both =
+          joined({open_top,
+                  water,
+                  {"solid=false", std::string("numerics.interface_scheme=") + scheme,
+                   "numerics.fluid_convection=advective", std::string("numerics.solid_flux=") + flux}});
       const std::string what = std::string("water_") + scheme + "_" + flux;
       all.push_back(floor_of_obstacles(what, both, false));
       all.push_back(wall_of_obstacles(what, both));
