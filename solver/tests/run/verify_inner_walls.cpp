@@ -107,7 +107,7 @@ Set joined(std::initializer_list<Set> parts) {
   return all;
 }
 
-const Set open_top{"walls.all=no-slip", "walls.top=open"};
+const Set open_top{"numerics.fluid_convection=advective", "walls.all=no-slip", "walls.top=open"};
 const Set loose{"bed.x=0", "bed.length=0.02", "bed.height=0.025", "bed.solid_fraction=0.55"};
 const Set dense{"bed.x=0", "bed.length=0.02", "bed.height=0.025", "bed.solid_fraction=0.58"};
 const Set sheared{"bed.x=0", "bed.length=0.04", "bed.height=0.025", "bed.solid_fraction=0.58",
