@@ -113,8 +113,15 @@ const Set dense{"bed.x=0", "bed.length=0.02", "bed.height=0.025", "bed.solid_fra
 const Set sheared{"bed.x=0", "bed.length=0.04", "bed.height=0.025", "bed.solid_fraction=0.58",
                   "tank.inclination=30"};
 const Set full{"bed.x=0", "bed.length=0.04", "bed.height=0.025", "bed.solid_fraction=0.55"};
-const Set light{"walls.all=no-slip", "liquid.level=0.04", "solid.density=400", "bed.x=0",
-                "bed.length=0.02",   "bed.height=0.0175", "bed.y=0.0225",      "bed.solid_fraction=0.55"};
+const Set light{"numerics.fluid_convection=advective",
+                "walls.all=no-slip",
+                "liquid.level=0.04",
+                "solid.density=400",
+                "bed.x=0",
+                "bed.length=0.02",
+                "bed.height=0.0175",
+                "bed.y=0.0225",
+                "bed.solid_fraction=0.55"};
 const Set deep{"scene.dimensions=3", "tank.size=[0.04, 0.04, 0.015]", "bed.z=0",
                "bed.width=0.01",     "model.contact_friction=false",  "numerics.linear_tolerance=1e-10"};
 const Set water{"liquid.box.origin=[0, 0]", "liquid.box.size=[0.02, 0.035]", "liquid.level=0.01"};
