@@ -56,7 +56,7 @@ LINES = (
     Line("rate of its approach to rest [1/s]", FLOATING, ("decay_rate",), "DEM", "float-full-r02"),
     Line("its period without drag, 0.2 / 0.4 / 0.6 [s]", tuple(f"{scene}-nodrag" for scene in FLOATING[:3]), ("period",), "theory"),
     Line("front of a dam break without grains, rms over a", ("dam-break",), ("dam_break_distance-delta",), "published"),
-    Line("energy that the scheme makes, of what physics dissipates: S1 / S2 / canary in air", ("s1", "s2", "canary-dry"),
+    Line("energy that the scheme makes, of what the flow is given otherwise: S1 / S2 / canary in air", ("s1", "s2", "canary-dry"),
          ("energy_created",), "theory"),
     Line("slope of a heap at rest, T = 10 to 40, moves by [degrees]", ("heap",), ("slope_drift",), "theory"),
     Line("fastest fluid in a pool at rest [m/s]", ("pool",), ("fluid_speed_max",), "theory"),

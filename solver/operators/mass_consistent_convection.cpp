@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "solver/closures/slope_limiter/van_leer.hpp"
 #include "solver/grid/reduce.hpp"
@@ -19,49 +21,63 @@ constexpr double largest_courant = 0.25;
 // not solved for.
 constexpr double share_that_counts = 1e-6;
 
-// Where nothing is limited.
-constexpr double nowhere = 1e300;
+// Values along a line of faces, from two before the middle one to two beyond it.
+struct Plain {
+  const double* middle;
+  std::ptrdiff_t stride;
+  double operator()(std::ptrdiff_t k) const { return middle[k * stride]; }
+};
+struct Seen {  // with walls inside the tank
+  InnerWalls::Line line;
+  double operator()(std::ptrdiff_t k) const { return line[static_cast<std::size_t>(2 + k)]; }
+};
 
+// What one face loses beside what central differences of the same fluxes would take; its acceleration with
+// it.
 template <int dim>
-double convect(const Field& mass, double least, const Grid& grid, const FaceField& u, int d,
-               const Range& faces, double dt, Field& acceleration) {
-  const std::ptrdiff_t s = grid.stride(d);
-  const std::array<std::ptrdiff_t, 3> stride{grid.stride(0), grid.stride(1), dim == 3 ? grid.stride(2) : 0};
-  const std::array<const double*, 3> carrier{u[0].data(), u[1].data(), dim == 3 ? u[2].data() : nullptr};
-  const std::array<double, 3> per_h{1.0 / grid.h[0], 1.0 / grid.h[1], 1.0 / grid.h[2]};
-  const double *m = mass.data(), *v = u[d].data();
-  double* a = acceleration.data();
-  // Returns what its face loses beside what central differences of the same fluxes would take.
-  const auto convect_face = [=](std::ptrdiff_t c) {
-    const auto of_face = [=](std::ptrdiff_t at) { return 0.5 * (m[at] + m[at - s]); };
+struct ConvectFace {
+  std::array<std::ptrdiff_t, 3> stride;
+  std::array<const double*, 3> carrier;
+  std::array<double, 3> per_h;
+  const double *m, *v;
+  std::ptrdiff_t s;  // along the component
+  double least, dt;
+  double* a;
+
+  double of_face(std::ptrdiff_t at) const { return 0.5 * (m[at] + m[at - s]); }
+  double flux(int e, std::ptrdiff_t at) const {  // upwind, through a face of a cell
+    const double w = carrier[e][at];
+    return std::max(w, 0.0) * m[at - stride[e]] + std::min(w, 0.0) * m[at];
+  }
+
+  // line(c, e): the values of which slopes are made
+  template <typename Line>
+  double operator()(std::ptrdiff_t c, Line&& line) const {
     const double old = of_face(c);
     double in = 0.0, net = 0.0, brought = 0.0, beyond = 0.0, central = 0.0, heaviest = 0.0;
     for (int e = 0; e < dim; ++e) {
       const std::ptrdiff_t t = stride[e];
-      const auto flux = [=](std::ptrdiff_t at) {  // upwind, through a face of a cell
-        const double w = carrier[e][at];
-        return std::max(w, 0.0) * m[at - t] + std::min(w, 0.0) * m[at];
-      };
+      const auto along = line(c, e);
       // Through the sides of the control volume: the means of those of the two cells that it halves. Limited
       // values differ from the upwind ones on either side of a face by half a slope.
-      const auto pass = [&](double arriving, std::ptrdiff_t to) {
-        const double jump = v[c + to] - v[c];
+      const auto pass = [&](double arriving, int to) {
+        const double jump = v[c + to * t] - v[c];
         net += arriving;
         in += std::max(arriving, 0.0);
         brought += std::max(arriving, 0.0) * jump;
         central += 0.5 * arriving * jump;
-        const double there = of_face(c + to);
+        const double there = of_face(c + to * t), held = std::min(old, there);
         heaviest = std::max(heaviest, there);
-        const double held = std::min(old, there);
         if (held <= least) return;
         const double share = std::clamp(2.0 - std::fabs(arriving) * dt / (largest_courant * held), 0.0, 1.0);
-        const double opposite = v[c] - v[c - to], further = v[c + 2 * to] - v[c + to];
+        const double before = along(0) - along(-to), rise = along(to) - along(0),
+                     further = along(2 * to) - along(to);
         beyond -= 0.5 * share *
-                  (arriving > 0.0 ? arriving * LimiterVanLeer::slope(jump, further)
-                                  : -arriving * LimiterVanLeer::slope(opposite, jump));
+                  (arriving > 0.0 ? arriving * LimiterVanLeer::slope(rise, further)
+                                  : -arriving * LimiterVanLeer::slope(before, rise));
       };
-      pass(0.5 * (flux(c) + flux(c - s)) * per_h[e], -t);
-      pass(-0.5 * (flux(c + t) + flux(c + t - s)) * per_h[e], t);
+      pass(0.5 * (flux(e, c) + flux(e, c - s)) * per_h[e], -1);
+      pass(-0.5 * (flux(e, c + t) + flux(e, c + t - s)) * per_h[e], 1);
     }
     const double next = std::max(old + dt * net, dt * in);
     if (next <= share_that_counts * heaviest) {
@@ -71,22 +87,50 @@ double convect(const Field& mass, double least, const Grid& grid, const FaceFiel
     // of a face that is drained within the step little is left for what its sides carry beyond the upwind
     a[c] = (brought + std::min(1.0, 1.5 * next / old) * beyond) / next;
     return -v[c] * (old * a[c] - central);
-  };
+  }
+};
+
+template <int dim>
+double convect(const Field& mass, double least, const Grid& grid, const InnerWalls& walls, const FaceField& u,
+               int d, const Range& faces, double dt, Field& acceleration) {
+  const double* v = u[d].data();
+  const auto of = [&](auto&& what) { return std::array{what(0), what(1), what(dim == 3 ? 2 : 0)}; };
+  const std::array<std::ptrdiff_t, 3> stride = of([&](int e) { return grid.stride(e); });
+  const ConvectFace<dim> convect_face{stride,
+                                      of([&](int e) { return u[e].data(); }),
+                                      of([&](int e) { return 1.0 / grid.h[e]; }),
+                                      mass.data(),
+                                      v,
+                                      grid.stride(d),
+                                      least,
+                                      dt,
+                                      acceleration.data()};
   const Sums<1> sums = sum_rows(grid.cells, faces, [=](std::ptrdiff_t start, int n) {
+    const auto plain = [=](std::ptrdiff_t c, int e) { return Plain{v + c, stride[e]}; };
     double taken = 0.0;
-    for (int i = 0; i < n; ++i) taken += convect_face(start + i);
+    for (int i = 0; i < n; ++i) taken += convect_face(start + i, plain);
     return Sums<1>{{taken}};
   });
-  return sums.values[0];
+  if (walls.none()) return sums.values[0];
+  // Again where a wall inside the tank is in sight, with what is seen of it in the place of values beyond it.
+  double changed = 0.0;
+  for (const InnerWalls::Place& face : walls.faces(d)) {
+    if (!faces.contains(face.place)) continue;
+    const std::ptrdiff_t c = face.at;
+    changed -= convect_face(c, [&](std::ptrdiff_t, int e) { return Plain{v + c, stride[e]}; });
+    changed += convect_face(c, [&](std::ptrdiff_t, int e) { return Seen{walls.faces_along(v, c, d, e)}; });
+  }
+  return sums.values[0] + of_all(grid.cells, changed);
 }
 
 }  // namespace
 
-double convect_with_mass(const Field& m, bool limited, double least, const Grid& grid, const FaceField& u,
-                         int d, const Range& faces, double dt, Field& acceleration) {
-  const double from = limited ? least : nowhere;
-  return grid.dim == 3 ? convect<3>(m, from, grid, u, d, faces, dt, acceleration)
-                       : convect<2>(m, from, grid, u, d, faces, dt, acceleration);
+double convect_with_mass(const Field& m, bool limited, double least, const Grid& grid,
+                         const InnerWalls& walls, const FaceField& u, int d, const Range& faces, double dt,
+                         Field& acceleration) {
+  const double from = limited ? least : std::numeric_limits<double>::infinity();
+  return grid.dim == 3 ? convect<3>(m, from, grid, walls, u, d, faces, dt, acceleration)
+                       : convect<2>(m, from, grid, walls, u, d, faces, dt, acceleration);
 }
 
 }  // namespace granvof

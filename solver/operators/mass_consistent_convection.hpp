@@ -11,14 +11,17 @@
 #pragma once
 
 #include "solver/grid/field.hpp"
+#include "solver/grid/inner_walls.hpp"
 
 namespace granvof {
 
-// Convective acceleration [m/s2] of component d on `faces` (inner ones). m: mass of the phase [kg/m3] in
-// cells, u its velocity [m/s], two layers of ghosts of both filled; dt [s] > 0. `limited`: by van Leer's
-// reconstruction where a face and its donor hold more than `least` [kg/m3] and the step is short for them,
-// else upwind. Returns what convective_acceleration() does [W/m3].
-double convect_with_mass(const Field& m, bool limited, double least, const Grid& grid, const FaceField& u,
-                         int d, const Range& faces, double dt, Field& acceleration);
+// Convective acceleration [m/s2] of component d on `faces` (inner ones). m: mass of the phase in cells, in
+// any unit per volume; u its velocity [m/s], two layers of ghosts of both filled; dt [s] > 0. `limited`: by
+// van Leer's reconstruction where a face and its donor hold more than `least` of m and the step is short for
+// them, else upwind; beside walls inside the tank slopes are made with what is seen of them. Returns what
+// convective_acceleration() does, in the unit of m [m2/s3].
+double convect_with_mass(const Field& m, bool limited, double least, const Grid& grid,
+                         const InnerWalls& walls, const FaceField& u, int d, const Range& faces, double dt,
+                         Field& acceleration);
 
 }  // namespace granvof

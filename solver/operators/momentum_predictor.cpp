@@ -17,34 +17,26 @@ MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const
       solid_(grid),
       fluid_(grid),
       convective_(grid) {
-  const bool free_of_walls = grid.obstacles.solid() == nullptr;  // beside obstacles momentum is advected
-
-  if (scene.numerics.solid_convection == Convection::mass_consistent && free_of_walls && has_grains(scene))
-    solid_mass_ = Field(grid);
-  if (scene.numerics.fluid_convection == Convection::mass_consistent && free_of_walls && has_liquid(scene))
+  // a fluid of one density fills no face
+  if (scene.numerics.fluid_convection == Convection::mass_consistent && has_liquid(scene))
     fluid_mass_ = Field(grid);
 }
 
-// A fluid of one density fills no face.
-void MomentumPredictor::set_masses(const State& now) {
-  const double rho_s = scene_.solid.density, rho_l = scene_.liquid.density, rho_g = scene_.gas.density;
+void MomentumPredictor::set_fluid_mass(const State& now) {
+  if (fluid_mass_.empty()) return;
+  const double rho_l = scene_.liquid.density, rho_g = scene_.gas.density;
   const double *f = now.f_s.data(), *a = now.alpha.data();
-  if (!solid_mass_.empty()) {
-    double* m = solid_mass_.data();
-    for_each(grid_.cells, grid_.cells_and_ghosts(2), [=](std::ptrdiff_t c) { m[c] = f[c] * rho_s; });
-  }
-  if (!fluid_mass_.empty()) {
-    double* m = fluid_mass_.data();
-    for_each(grid_.cells, grid_.cells_and_ghosts(2),
-             [=](std::ptrdiff_t c) { m[c] = (1.0 - f[c]) * mixture(a[c], rho_l, rho_g); });
-  }
+  double* m = fluid_mass_.data();
+  for_each(grid_.cells, grid_.cells_and_ghosts(2),
+           [=](std::ptrdiff_t c) { m[c] = (1.0 - f[c]) * mixture(a[c], rho_l, rho_g); });
 }
 
 void MomentumPredictor::convect_solid(double dt, const State& now, const FaceInertia& inertia, int d) {
   const Range faces = grid_.inner_faces(d);
-  if (!solid_mass_.empty()) {
-    upwind_power_ += grid_.cell_volume *
-                     convect_with_mass(solid_mass_, limited_, 0.0, grid_, now.u_s, d, faces, dt, solid_[d]);
+  if (scene_.numerics.solid_convection == Convection::mass_consistent) {
+    upwind_power_ +=
+        grid_.cell_volume * scene_.solid.density *
+        convect_with_mass(now.f_s, limited_, 0.0, grid_, boundary_.walls(), now.u_s, d, faces, dt, solid_[d]);
     return;
   }
   upwind_power_ += grid_.cell_volume * convective_acceleration(inertia.solid[d], grid_, boundary_.walls(),
@@ -68,16 +60,16 @@ void MomentumPredictor::convect_fluid(double dt, const State& now, const FaceIne
   grid_.for_each_passing_side([&](int e, bool upper) {
     if (e == d) advect(grid_.side_faces(d, upper));
   });
-  upwind_power_ +=
-      grid_.cell_volume * convect_with_mass(fluid_mass_, limited_, between_gas_and_liquid, grid_, now.u_c, d,
-                                            grid_.inner_faces(d), dt, convective_[d]);
+  upwind_power_ += grid_.cell_volume * convect_with_mass(fluid_mass_, limited_, between_gas_and_liquid, grid_,
+                                                         boundary_.walls(), now.u_c, d, grid_.inner_faces(d),
+                                                         dt, convective_[d]);
 }
 
 void MomentumPredictor::update(double dt, const State& now, const FaceInertia& inertia,
                                const FluidViscosity& viscosity, const Aperture& aperture,
                                const BodyAcceleration* extra) {
   upwind_power_ = viscous_power_ = 0.0;
-  set_masses(now);
+  set_fluid_mass(now);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];

@@ -37,7 +37,7 @@ class MomentumPredictor {
  private:
   void convect_fluid(double dt, const State& now, const FaceInertia& inertia, int d);
   void convect_solid(double dt, const State& now, const FaceInertia& inertia, int d);
-  void set_masses(const State& now);
+  void set_fluid_mass(const State& now);
   void add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d);
 
   const Grid& grid_;
@@ -45,7 +45,7 @@ class MomentumPredictor {
   const Boundary& boundary_;
   bool limited_;
   FaceField solid_, fluid_, convective_;
-  Field solid_mass_, fluid_mass_;  // f_s rho_s, f_c rho_c of cells [kg/m3], where momentum goes by them
+  Field fluid_mass_;  // f_c rho_c of cells [kg/m3], where momentum goes with it
   double upwind_power_ = 0.0, viscous_power_ = 0.0;
 };
 

@@ -51,7 +51,7 @@ struct Arrival {
     return s.grid.cells.index(i[0], i[1], i[2]);
   }
   double convect(int d, Field& a, bool limited = false) const {
-    return convect_with_mass(m, limited, 0.0, s.grid, u, d, s.grid.inner_faces(d), dt, a);
+    return convect_with_mass(m, limited, 0.0, s.grid, s.boundary.walls(), u, d, s.grid.inner_faces(d), dt, a);
   }
 };
 
@@ -103,20 +103,21 @@ TEST(MassConsistentConvection, NextToNothingIsNotSolvedFor) {
   EXPECT_EQ(a[body.first_at_rest(0, 0, 1e-8)], 0.0);
 }
 
+Scene periodic(int dim, int n) {
+  Scene scene = test::unit_scene(dim, n);
+  for (int d = 0; d < dim; ++d) make_periodic(scene, d);
+  return scene;
+}
+
 // A periodic box of random masses and velocities.
 struct RandomBox {
   Tank s;
   FaceField u;
   Field m;
 
-  explicit RandomBox(int dim) : s(periodic(dim)), u(s.random_faces(-1.0, 1.0)), m(s.grid) {
+  explicit RandomBox(int dim) : s(periodic(dim, 8)), u(s.random_faces(-1.0, 1.0)), m(s.grid) {
     s.each_cell([&](int, int, int, std::ptrdiff_t c) { m[c] = s.uniform(0.0, 1.0) < 0.5 ? 1e-3 : 1.0; });
     s.boundary.exchange(m);
-  }
-  static Scene periodic(int dim) {
-    Scene scene = test::unit_scene(dim, 8);
-    for (int d = 0; d < dim; ++d) make_periodic(scene, d);
-    return scene;
   }
   // Mass that comes into the control volume of a face per volume and time, by the same upwind fluxes.
   double filling(int d, std::ptrdiff_t c) const {
@@ -138,7 +139,8 @@ TEST(MassConsistentConvection, MomentumIsConserved) {
       const double step = 0.02 * box.s.grid.h[0];
       for (int d = 0; d < dim; ++d) {
         Field a(box.s.grid, untouched);
-        convect_with_mass(box.m, limited, 0.0, box.s.grid, box.u, d, box.s.grid.all_cells(), step, a);
+        convect_with_mass(box.m, limited, 0.0, box.s.grid, box.s.boundary.walls(), box.u, d,
+                          box.s.grid.all_cells(), step, a);
         double before = 0.0, after = 0.0, magnitude = 0.0;
         box.s.each_cell([&](int, int, int, std::ptrdiff_t c) {
           const double old = 0.5 * (box.m[c] + box.m[c - box.s.grid.stride(d)]);
@@ -157,7 +159,8 @@ TEST(MassConsistentConvection, NoNewExtremumHoweverLongTheStep) {
     const double step = 10.0 * box.s.grid.h[0];
     for (int d = 0; d < dim; ++d) {
       Field a(box.s.grid, untouched);
-      convect_with_mass(box.m, true, 0.0, box.s.grid, box.u, d, box.s.grid.all_cells(), step, a);
+      convect_with_mass(box.m, true, 0.0, box.s.grid, box.s.boundary.walls(), box.u, d,
+                        box.s.grid.all_cells(), step, a);
       const double lowest = box.s.smallest(box.u[d]), highest = box.s.largest(box.u[d]);
       box.s.each_cell([&](int, int, int, std::ptrdiff_t c) {
         EXPECT_GE(box.u[d][c] + step * a[c], lowest - 1e-12);
@@ -170,15 +173,14 @@ TEST(MassConsistentConvection, NoNewExtremumHoweverLongTheStep) {
 // Where a phase is alike everywhere and its flow keeps its volume, both forms are -(u . grad) u.
 TEST(MassConsistentConvection, OrderOnASmoothFlow) {
   const auto error = [](int n, bool limited) {
-    Scene scene = test::unit_scene(2, n);
-    for (int d = 0; d < 2; ++d) make_periodic(scene, d);
-    const Tank s(scene);
+    const Tank s(periodic(2, n));
     constexpr double k = 2.0 * std::numbers::pi;
     const auto u0 = [](const Vec3& x) { return 0.7 + std::sin(k * x[0]) * std::cos(k * x[1]); };
     const auto u1 = [](const Vec3& x) { return -0.4 - std::cos(k * x[0]) * std::sin(k * x[1]); };
     const FaceField u = s.faces({u0, u1, [](const Vec3&) { return 0.0; }});
     Field a(s.grid);
-    convect_with_mass(Field(s.grid, 1.0), limited, 0.0, s.grid, u, 0, s.grid.all_cells(), 1e-6, a);
+    convect_with_mass(Field(s.grid, 1.0), limited, 0.0, s.grid, s.boundary.walls(), u, 0, s.grid.all_cells(),
+                      1e-6, a);
     double sum = 0.0;
     s.each_cell([&](int i, int j, int m, std::ptrdiff_t c) {
       const Vec3 x = s.face(0, i, j, m);

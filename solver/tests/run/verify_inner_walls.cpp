@@ -107,21 +107,14 @@ Set joined(std::initializer_list<Set> parts) {
   return all;
 }
 
-const Set open_top{"numerics.fluid_convection=advective", "walls.all=no-slip", "walls.top=open"};
+const Set open_top{"walls.all=no-slip", "walls.top=open"};
 const Set loose{"bed.x=0", "bed.length=0.02", "bed.height=0.025", "bed.solid_fraction=0.55"};
 const Set dense{"bed.x=0", "bed.length=0.02", "bed.height=0.025", "bed.solid_fraction=0.58"};
 const Set sheared{"bed.x=0", "bed.length=0.04", "bed.height=0.025", "bed.solid_fraction=0.58",
                   "tank.inclination=30"};
 const Set full{"bed.x=0", "bed.length=0.04", "bed.height=0.025", "bed.solid_fraction=0.55"};
-const Set light{"numerics.fluid_convection=advective",
-                "walls.all=no-slip",
-                "liquid.level=0.04",
-                "solid.density=400",
-                "bed.x=0",
-                "bed.length=0.02",
-                "bed.height=0.0175",
-                "bed.y=0.0225",
-                "bed.solid_fraction=0.55"};
+const Set light{"walls.all=no-slip", "liquid.level=0.04", "solid.density=400", "bed.x=0",
+                "bed.length=0.02",   "bed.height=0.0175", "bed.y=0.0225",      "bed.solid_fraction=0.55"};
 const Set deep{"scene.dimensions=3", "tank.size=[0.04, 0.04, 0.015]", "bed.z=0",
                "bed.width=0.01",     "model.contact_friction=false",  "numerics.linear_tolerance=1e-10"};
 const Set water{"liquid.box.origin=[0, 0]", "liquid.box.size=[0.02, 0.035]", "liquid.level=0.01"};
@@ -190,11 +183,10 @@ std::vector<Walls> all_walls() {
   all.push_back(deep_wall);
   for (const char* scheme : {"cicsam", "plic"}) {
     for (const char* flux : {"upwind", "limited"}) {
-      const Set both =
-          joined({open_top,
-                  water,
-                  {"solid=false", std::string("numerics.interface_scheme=") + scheme,
-                   "numerics.fluid_convection=advective", std::string("numerics.solid_flux=") + flux}});
+      const Set both = joined({open_top,
+                               water,
+                               {"solid=false", std::string("numerics.interface_scheme=") + scheme,
+                                std::string("numerics.solid_flux=") + flux}});
       const std::string what = std::string("water_") + scheme + "_" + flux;
       all.push_back(floor_of_obstacles(what, both, false));
       all.push_back(wall_of_obstacles(what, both));
