@@ -7,7 +7,7 @@
 // the mass fluxes F into it (negative out of it),
 //   m_new = m + dt sum F,   m_new (u_new - u) = dt sum F (u_side - u),
 // u_side upwind or limited (for two fluids Rudman 1998, Int. J. Numer. Meth. Fluids 28).
-// Equations: docs/theory/choices.md.
+// Equations: docs/theory/balances.md, the form: docs/theory/choices.md.
 #pragma once
 
 #include "solver/grid/field.hpp"
