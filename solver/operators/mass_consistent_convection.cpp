@@ -68,8 +68,9 @@ struct ConvectFace {
         central += 0.5 * arriving * jump;
         const double there = of_face(c + to * t), held = std::min(old, there);
         heaviest = std::max(heaviest, there);
-        if (held <= least) return;
-        const double share = std::clamp(2.0 - std::fabs(arriving) * dt / (largest_courant * held), 0.0, 1.0);
+        const double passes = std::fabs(arriving) * dt, harmless = largest_courant * held;
+        if (held <= least || passes >= 2.0 * harmless) return;  // the latter of next to nothing, 0 over 0, too
+        const double share = std::min(2.0 - passes / harmless, 1.0);
         const double before = along(0) - along(-to), rise = along(to) - along(0),
                      further = along(2 * to) - along(to);
         beyond -= 0.5 * share *

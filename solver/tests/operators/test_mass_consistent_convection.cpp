@@ -1,5 +1,6 @@
 // Faces that a front reaches take up what it brings; others are left alone, and nothing new is made.
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -166,6 +167,21 @@ TEST(MassConsistentConvection, NoNewExtremumHoweverLongTheStep) {
         EXPECT_GE(box.u[d][c] + step * a[c], lowest - 1e-12);
         EXPECT_LE(box.u[d][c] + step * a[c], highest + 1e-12);
       });
+    }
+  }
+}
+
+// Where grains have left for good their fraction ends among the smallest numbers there are.
+TEST(MassConsistentConvection, OfNextToNothingIsFinite) {
+  const RandomBox box(2);
+  for (const double next_to_nothing : {1e-300, 1e-308, std::numeric_limits<double>::denorm_min()}) {
+    FaceField u = box.u;
+    u[1].fill(0.0);
+    for (int d = 0; d < 2; ++d) {
+      Field a(box.s.grid, untouched);
+      convect_with_mass(Field(box.s.grid, next_to_nothing), true, 0.0, box.s.grid, box.s.boundary.walls(), u,
+                        d, box.s.grid.all_cells(), 1e-3, a);
+      box.s.each_cell([&](int, int, int, std::ptrdiff_t c) { EXPECT_TRUE(std::isfinite(a[c])) << a[c]; });
     }
   }
 }
