@@ -69,7 +69,7 @@ struct ConvectFace {
         const double there = of_face(c + to * t), held = std::min(old, there);
         heaviest = std::max(heaviest, there);
         const double passes = std::fabs(arriving) * dt, harmless = largest_courant * held;
-        if (held <= least || passes >= 2.0 * harmless) return;  // the latter of next to nothing, 0 over 0, too
+        if (held <= least || passes >= 2.0 * harmless) return;  // where nothing passes nothing too
         const double share = std::min(2.0 - passes / harmless, 1.0);
         const double before = along(0) - along(-to), rise = along(to) - along(0),
                      further = along(2 * to) - along(to);

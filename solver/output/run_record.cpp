@@ -1,6 +1,7 @@
 #include "solver/output/run_record.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <string_view>
 
 #include <fmt/chrono.h>
@@ -34,6 +35,11 @@ std::string_view exit_state_name(ExitState state) {
       return "stopped";
   }
   return "";
+}
+
+// JSON has no word for what is not a number.
+double figure_of(const ordered_json& value) {
+  return value.is_null() ? std::nan("") : value.get<double>();
 }
 
 // "running" and "finished" are their own kind.
@@ -200,7 +206,8 @@ std::optional<ExistingRun> read_existing_run(const std::filesystem::path& run_js
     run.record.start_date = json.at("start_date");
     for (const auto& entry : json.at("resumptions")) run.record.resumptions.push_back(resumption_of(entry));
     for (const auto& w : json.value("warnings", ordered_json::array()))
-      run.warnings.push_back({w.at("monitor"), w.at("time"), w.at("value"), w.at("limit"), w.at("meaning")});
+      run.warnings.push_back(
+          {w.at("monitor"), w.at("time"), figure_of(w.at("value")), w.at("limit"), w.at("meaning")});
     run.has_checkpoint = !json.at("exit").value("resume_from", ordered_json()).is_null();
     run.time = json.at("exit").value("time", 0.0);
     const ordered_json& series = json.at("files").at("series.csv");

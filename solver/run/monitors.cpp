@@ -74,6 +74,8 @@ std::string Monitors::not_finite(const State& s) const {
   for (const FaceQuantity& q : face_quantities)
     for (int d = 0; d < grid_.dim; ++d)
       if (!finite((s.*q.field)[d])) return q.name;
+  for (const EnergyTerm& term : energy_terms)
+    if (!std::isfinite(s.energy.*term.value)) return term.name;
   return {};
 }
 

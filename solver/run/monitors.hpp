@@ -25,7 +25,7 @@ class Monitors {
   double solid_fraction_min() const { return solid_min_; }  // smallest ever [-]
   // Largest P_s of cells beside sides that grains pass, of the state of the last update() [Pa].
   double outlet_load() const { return outlet_load_; }
-  // Empty, or which field is not finite.
+  // Empty, or which field or energy is not finite.
   std::string not_finite(const State& s) const;
 
   struct Values {

@@ -1,4 +1,5 @@
 // What resuming and writing make of a run directory that was damaged, cut, or is not what it seems.
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -213,6 +214,16 @@ TEST_F(RunDirectory, ARecordInWhichADigitWasChangedIsRefused) {
   EXPECT_NE(message_of<OutputError>([&] { resume(); }).find("run.json: it is not what was written"),
             std::string::npos);
   EXPECT_THROW(fresh(), OutputError);
+}
+
+TEST_F(RunDirectory, AWarningOfWhatIsNoNumberIsOfARunToo) {
+  auto writer = fresh();
+  RunProgress broken = progress(1.0);
+  broken.warnings = {{"energy residual", 0.5, std::nan(""), 0.01, "not a number"}};
+  writer.finish(broken, {ExitState::failed, "not finite", ExitKind::not_finite});
+  const auto existing = read_existing_run(run / "run.json");
+  ASSERT_TRUE(existing);
+  EXPECT_TRUE(std::isnan(existing->warnings.at(0).value));
 }
 
 // A copy of the process that wrote on, and crashed.

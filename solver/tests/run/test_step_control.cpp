@@ -122,6 +122,11 @@ TEST(Monitors, NoticeWhatIsNotFinite) {
     expect_noticed(q.name, [&](State& s) -> Field& { return s.*q.field; });
   for (const FaceQuantity& q : face_quantities)
     for (int d = 0; d < 2; ++d) expect_noticed(q.name, [&](State& s) -> Field& { return (s.*q.field)[d]; });
+  for (const EnergyTerm& term : energy_terms) {
+    State s = c.state;
+    s.energy.*term.value = std::nan("");
+    EXPECT_EQ(monitors.not_finite(s), term.name);
+  }
 }
 
 TEST(Monitors, VolumesAndTheirErrors) {
