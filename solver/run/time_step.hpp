@@ -45,7 +45,8 @@ class TimeStep {
     const BodyAcceleration* extra;
     StepReport report{};
     double viscous_power = 0.0;            // of the fluid, explicit or implicit [W]
-    double elastic = 0.0;                  // stored once the grains were carried [J]
+    std::optional<double> sheared{};       // elastic energy once shear had changed the packing [J]
+    double elastic = 0.0;                  // the same once the grains were carried
     const LiquidPassed* passed = nullptr;  // what crossed the faces
     Friction::Power stress{};              // of the solid
     GranularLosses granular{};
@@ -77,6 +78,10 @@ class TimeStep {
   void pack(Attempt& step);
   void agitate(Attempt& step);
   void account(Attempt& step);
+  // At which the grains touch in the pressure stage.
+  const Field& packing_of(const Attempt& step) const {
+    return packing_follows_shear(step) ? sheared_packing_ : step.now.packing;
+  }
   bool outruns_explicit_viscosity(const Attempt& step) const { return !viscosity_.bears(step.dt); }
   bool packing_follows_shear(const Attempt&) const { return scene_.model.shear_dilatancy; }
 
@@ -102,6 +107,7 @@ class TimeStep {
   EnergyBudget budget_;
   FaceField flux_s_, flux_c_;  // f_s u_s, f_c u_c through the faces [m/s]
   FaceField flux_c_solved_;    // f_c u_c before continuity was closed
+  Field sheared_packing_;      // the old one after the shear of the step; empty without shear dilatancy
   Field stirred_;              // Theta that the kinetic viscosity is taken at [m2/s2]
   Field production_;           // of Theta: what the kinetic stress dissipates [W/m3]
   Stopwatch cost_;
