@@ -8,7 +8,6 @@
 
 #include "solver/operators/continuity_closure.hpp"
 #include "solver/operators/packing.hpp"
-#include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_transport.hpp"
 #include "solver/run/step_control.hpp"
 
@@ -100,20 +99,28 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, Boundary& boundary)
       strain_(grid),
       whole_columns_(grid.has_whole_columns()),
       continuity_tree_(grid),
+      pressure_level_(grid, scene),
       budget_(grid, scene, boundary),
       flux_s_(grid),
       flux_c_(grid),
       flux_c_solved_(grid),
       stirred_(grid),
       production_(grid) {
-  if (!whole_columns_) continuity_tree_.grow(aperture_);
+  part_the_fluid();
   if (aperture_.has_gate()) boundary_.shut_gate(aperture_.gate_face(), aperture_.open_rows());
 }
 
 void TimeStep::move_gate(double time) {
   if (!aperture_.update(time)) return;
-  if (!whole_columns_) continuity_tree_.grow(aperture_);
+  part_the_fluid();
   boundary_.shut_gate(aperture_.gate_face(), aperture_.open_rows());
+}
+
+// As obstacles and the gate do where it stands.
+void TimeStep::part_the_fluid() {
+  const bool may_be_parted = pressure_level_.may_be_parted();
+  if (!whole_columns_ || may_be_parted) continuity_tree_.grow(aperture_);
+  if (may_be_parted) pressure_level_.find_parts(continuity_tree_);
 }
 
 // What the old level says of the laws. The kinetic viscosity is taken at the old Theta, or where grains begin
@@ -217,7 +224,7 @@ void TimeStep::carry_solid(Attempt& step) {
 void TimeStep::carry_liquid(Attempt& step) {
   step.passed = &interface_.advance(step.dt, step.now, flux_c_, step.next);
   step.report.liquid_left = step.passed->total(grid_);
-  set_pressure_level(grid_, scene_, step.next.alpha, step.next.p_c);
+  pressure_level_.set(step.next.alpha, step.next.p_c);
 }
 
 // After the shear that friction worked on: elastic waves of the pressure stage, which it has not felt yet,

@@ -12,6 +12,7 @@
 #include "solver/operators/granular_temperature.hpp"
 #include "solver/operators/implicit_viscosity.hpp"
 #include "solver/operators/interface_transport.hpp"
+#include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_momentum.hpp"
 #include "solver/run/energy_budget.hpp"
 #include "solver/run/stopwatch.hpp"
@@ -66,6 +67,7 @@ class TimeStep {
 
  private:
   void move_gate(double time);
+  void part_the_fluid();
   void close(Attempt& step);
   void predict(Attempt& step);
   void shear_solid(Attempt& step);
@@ -99,6 +101,7 @@ class TimeStep {
   StrainRate strain_;
   bool whole_columns_;  // else the tree closes continuity
   ContinuityTree continuity_tree_;
+  PressureLevel pressure_level_;
   EnergyBudget budget_;
   FaceField flux_s_, flux_c_;  // f_s u_s, f_c u_c through the faces [m/s]
   FaceField flux_c_solved_;    // f_c u_c before continuity was closed
