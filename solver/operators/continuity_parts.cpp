@@ -125,8 +125,19 @@ void ContinuityParts::grow(const std::vector<Link>& links, const std::vector<dou
   for (std::size_t part = 0; part < drains.size(); ++part)
     if (drains[part] != 0.0) reach(static_cast<int>(part));
   spread();
-  for (std::size_t part = 0; part < drains.size(); ++part)
-    if (reach(static_cast<int>(part))) spread();
+  sealed_of_.assign(cells_.size(), -1);
+  sealed_ = 0;
+  for (std::size_t part = 0; part < drains.size(); ++part) {
+    const std::size_t begin = done;
+    if (!reach(static_cast<int>(part))) continue;
+    spread();
+    for (std::size_t at = begin; at < done; ++at) {
+      const int own = row[at] - first_;
+      if (own >= 0 && own < static_cast<int>(sealed_of_.size()))
+        sealed_of_[static_cast<std::size_t>(own)] = sealed_;
+    }
+    ++sealed_;
+  }
 }
 
 void ContinuityParts::even_out(Field& gain, FaceField& flux_c) {

@@ -23,6 +23,10 @@ class ContinuityParts {
   // Leaves every part that does not drain without gain in the sum over its cells, but for rounding: changes
   // the gains [1/s] beside one face a pair of parts, and flux_c [m/s] there.
   void even_out(Field& gain, FaceField& flux_c);
+  // Of every part of this slab: the number of what no fluid leaves through a side of the tank, parts of all
+  // slabs together, that it belongs to; negative where fluid does. How many of those there are.
+  const std::vector<int>& sealed_of() const { return sealed_of_; }
+  int sealed() const { return sealed_; }
 
  private:
   // A face on a seam between two parts of neighbours. Numbers of parts are those of the whole tank.
@@ -53,6 +57,8 @@ class ContinuityParts {
   std::vector<Place> above_, below_;  // beside links on this slab's lower seam, and on its upper one
   std::vector<Step> steps_;           // from the roots outwards
   std::vector<double> gain_, flux_;   // of every part, through every link
+  std::vector<int> sealed_of_;
+  int sealed_ = 0;
 };
 
 }  // namespace granvof

@@ -10,12 +10,12 @@ void ContinuityTree::grow(const Aperture& aperture) {
   const Layout& l = grid_.cells;
   steps_.clear();
   constexpr int nowhere = -1;
-  std::vector<int> part_of(l.size, nowhere);
+  part_of_.assign(l.size, nowhere);
   std::vector<char> drains;             // of every part
   std::vector<std::array<int, 3>> row;  // cells in the order in which they were reached
   row.reserve(l.count());
   const auto reach = [&](const std::array<int, 3>& at) {
-    int& part = part_of[static_cast<std::size_t>(l.index(at))];
+    int& part = part_of_[static_cast<std::size_t>(l.index(at))];
     if (part != nowhere) return false;
     part = static_cast<int>(drains.size()) - 1;
     row.push_back(at);
@@ -56,14 +56,21 @@ void ContinuityTree::grow(const Aperture& aperture) {
   const char* solid = grid_.obstacles.solid();
   for_each_place(grid_.all_cells(), [&](const std::array<int, 3>& at) {
     const std::ptrdiff_t c = l.index(at);
-    if (part_of[static_cast<std::size_t>(c)] != nowhere || (solid != nullptr && solid[c] != 0)) return;
+    if (part_of_[static_cast<std::size_t>(c)] != nowhere || (solid != nullptr && solid[c] != 0)) return;
     drains.push_back(0);
     reach(at);
     spread();
   });
-  if (!l.is_cut()) return;
+  if (!l.is_cut()) {
+    sealed_parts_ = static_cast<int>(drains.size()) - 1;
+    sealed_of_.clear();
+    for (int part = 0; part <= sealed_parts_; ++part) sealed_of_.push_back(part - 1);
+    return;
+  }
   if (!parts_) parts_.emplace(grid_);
-  parts_->join(part_of, drains, aperture);
+  parts_->join(part_of_, drains, aperture);
+  sealed_of_ = parts_->sealed_of();
+  sealed_parts_ = parts_->sealed();
 }
 
 void ContinuityTree::close(const Boundary& boundary, const FaceField& flux_s, FaceField& flux_c) {

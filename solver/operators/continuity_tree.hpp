@@ -23,6 +23,13 @@ class ContinuityTree {
   void grow(const Aperture& aperture);
   // Adds to flux_c [m/s] what closes continuity, as close_continuity().
   void close(const Boundary& boundary, const FaceField& flux_s, FaceField& flux_c);
+  // Of a cell: the number of its part of the tank where that has no side that passes the fluid, the same in
+  // all processes; negative elsewhere and in obstacles. How many such parts there are.
+  int sealed_part_of(std::ptrdiff_t cell) const {
+    const int part = part_of_[static_cast<std::size_t>(cell)];
+    return part < 0 ? part : sealed_of_[static_cast<std::size_t>(part)];
+  }
+  int sealed_parts() const { return sealed_parts_; }
 
  private:
   struct Step {
@@ -36,6 +43,9 @@ class ContinuityTree {
   std::vector<Step> steps_;               // from the roots outwards
   Field gain_;                            // -div of both fluxes [1/s]
   std::optional<ContinuityParts> parts_;  // of a tank that is cut
+  std::vector<int> part_of_;              // of this slab's parts, by the index of a cell
+  std::vector<int> sealed_of_;            // number among the sealed ones, of every part
+  int sealed_parts_ = 0;
 };
 
 }  // namespace granvof

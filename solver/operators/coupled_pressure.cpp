@@ -268,7 +268,7 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
   dp_c_.fill(0.0);
   dp_s_.fill(0.0);
   set_response(dt, inertia, beta, aperture);
-  linearise(now, rheology);
+  linearise(now, next.packing, rheology);
   bool turned = false;  // all is solved but for faces that carry the fraction of the wrong side
   for (int iteration = 0; iteration < numerics.newton_max; ++iteration) {
     set_fluxes(dt, now.f_s, iteration < upwinding_settles || turned);
@@ -282,7 +282,7 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
     report.newton = iteration + 1;
     report.linear += r.iterations;
     correct(dt, now.f_s, next.u_s, next.u_c, flux_s, flux_c);
-    report.mismatch = implicit ? move_points(dt, now, rheology) : 0.0;
+    report.mismatch = implicit ? move_points(dt, now, next.packing, rheology) : 0.0;
     report.divergence = r.final * dt;
     if (!std::isfinite(report.mismatch)) return report;
     const bool solved =

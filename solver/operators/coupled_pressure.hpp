@@ -39,9 +39,9 @@ class CoupledPressure {
                   const closures::SolidLaw& law);
 
   // In: the old state with ghosts filled, the rheology, inertia and beta [kg/m3 s] of its level; in `next`
-  // the predicted u_s, u_c (old pressure gradients included) and the old p_c, p_s. Out: new u_s, u_c on their
-  // faces, p_c, p_s, and the volume fluxes per area f_s u_s and f_c u_c [m/s] through every face that close
-  // both balances.
+  // the predicted u_s, u_c (old pressure gradients included), the old p_c, p_s, and the packing at which the
+  // grains touch. Out: new u_s, u_c on their faces, p_c, p_s, and the volume fluxes per area f_s u_s and
+  // f_c u_c [m/s] through every face that close both balances.
   PressureReport solve(double dt, const State& now, const Rheology& rheology, const FaceInertia& inertia,
                        const FaceField& beta, const Aperture& aperture, State& next, FaceField& flux_s,
                        FaceField& flux_c);
@@ -57,9 +57,9 @@ class CoupledPressure {
   void correct(double dt, const Field& f_s, const FaceField& us_predicted, const FaceField& uc_predicted,
                FaceField& flux_s, FaceField& flux_c);
   void extrapolate_points(double dt, const Field& f_s, const FaceField& u_s_old);
-  void linearise(const State& now, const Rheology& rheology);
+  void linearise(const State& now, const Field& packing, const Rheology& rheology);
   double turned_flux(double dt, const Field& f_s);
-  double move_points(double dt, const State& now, const Rheology& rheology);
+  double move_points(double dt, const State& now, const Field& packing, const Rheology& rheology);
   void set_pressures(double dt, const State& now, const Rheology& rheology, const FaceField& flux_s,
                      State& next);
   linear::CoupledSystem system() const;

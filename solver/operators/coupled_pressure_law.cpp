@@ -22,10 +22,12 @@ constexpr double slope_that_matters = 10.0;
 // there are no grains.
 constexpr double least_slope = 1e-3;
 
-// P_s(f_s) of a cell at a trial f_s, Theta, e and what else fixes the law those of the old level.
-auto law_of_cells(const State& now, const Rheology& rheology, const closures::SolidLaw& law_of_scene) {
+// P_s(f_s) of a cell at a trial f_s and the packing of the step; Theta, e and what else fixes the law are
+// those of the old level.
+auto law_of_cells(const State& now, const Field& packing_of_step, const Rheology& rheology,
+                  const closures::SolidLaw& law_of_scene) {
   const double *theta = now.theta.data(), *e = rheology.restitution.data(),
-               *rest = rheology.part_cells.resting.data(), *packing = now.packing.data();
+               *rest = rheology.part_cells.resting.data(), *packing = packing_of_step.data();
   const double* viscous = rheology.viscous_stress.empty() ? nullptr : rheology.viscous_stress.data();
   return [=, law = law_of_scene](std::ptrdiff_t c, double f) {
     return closures::solid_pressure(f, {theta[c], e[c], rest[c], packing[c], viscous ? viscous[c] : 0.0},
@@ -55,12 +57,12 @@ void CoupledPressure::extrapolate_points(double dt, const Field& f_s, const Face
 }
 
 // Takes the law P_s(f_s) and its slope at the linearisation points.
-void CoupledPressure::linearise(const State& now, const Rheology& rheology) {
+void CoupledPressure::linearise(const State& now, const Field& packing, const Rheology& rheology) {
   const double* pf = point_f_.data();
   double *pp = point_p_.data(), *slope = slope_.data();
   const bool implicit = is_implicit();
   const double least = least_slope * load_;
-  const auto pressure = law_of_cells(now, rheology, law_);
+  const auto pressure = law_of_cells(now, packing, rheology, law_);
   for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) {
     const auto p = pressure(c, pf[c]);
     pp[c] = p.value;
@@ -74,11 +76,12 @@ void CoupledPressure::linearise(const State& now, const Rheology& rheology) {
 // would take if its neighbours stayed: f + B P_s(f) = f_new + B P_lin, B = what a unit of P_s drives out of
 // the cell in dt. That line is flat for a loaded bed (the weight fixes P_s) and steep for grains being driven
 // together (the motion fixes f_s); tangents alone creep along the law, which grows like (f_s - f_s,min)^3.5.
-double CoupledPressure::move_points(double dt, const State& now, const Rheology& rheology) {
+double CoupledPressure::move_points(double dt, const State& now, const Field& packing,
+                                    const Rheology& rheology) {
   const double *dp = dp_s_.data(), *p_old = now.p_s.data(), *f_new = f_new_.data();
   double *pf = point_f_.data(), *pp = point_p_.data(), *slope = slope_.data();
   const double tolerance = scene_.numerics.volume_tolerance;
-  const auto pressure = law_of_cells(now, rheology, law_);
+  const auto pressure = law_of_cells(now, packing, rheology, law_);
   std::array<const double*, 3> k22{};
   for (int d = 0; d < grid_.dim; ++d) k22[d] = k22_[d].data();
   const auto stride = grid_.cells.stride;
@@ -114,7 +117,7 @@ void CoupledPressure::set_pressures(double dt, const State& now, const Rheology&
   const bool implicit = is_implicit();
   const double* old = now.f_s.data();
   double* f = f_new_.data();
-  const auto pressure = law_of_cells(now, rheology, law_);
+  const auto pressure = law_of_cells(now, next.packing, rheology, law_);
   for_each_part_outside(grid_.all_cells(), pushed_, [&](const Range& cells) {
     for_each(grid_.cells, cells, [=](std::ptrdiff_t c) { f[c] = old[c]; });
     if (implicit) subtract_divergence(grid_, dt, flux_s, cells, f_new_);

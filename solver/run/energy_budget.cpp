@@ -65,7 +65,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.kinetic = w.kinetic;
   t.potential = potential_energy(next);
   t.granular = granular_energy(next);
-  t.elastic = scene_.model.shear_dilatancy ? elastic(next.f_s, next.packing) : trace.carried;
+  t.elastic = trace.carried;
 
   t.drag = w.slip + granular.drag;
   t.friction = dt * stress.friction;
@@ -75,7 +75,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
               dt * (trace.viscous.sides + stress.sides);
   t.walls = dt * (trace.viscous.walls + stress.walls);
   t.dense_excess = work_of_flow_pressure(dt, now, next, trace) - granular.pressure;
-  t.shear_dilatancy = t.elastic - trace.carried;
+  t.shear_dilatancy = trace.sheared - now.energy.elastic;
 
   t.numerical_time = w.step;
   t.numerical_momentum = -(w.convected + w.moved + w.kinetic_out);
@@ -83,7 +83,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.numerical_fluid = w.fluid_transport;
   t.numerical_viscosity = dt * trace.viscous_power - w.viscous;
   t.numerical_stress = dt * (stress.solved_for - stress.on_grains);
-  t.numerical_elastic = -work_of_contacts(dt, now, next, trace) - (trace.carried - now.energy.elastic);
+  t.numerical_elastic = -work_of_contacts(dt, now, next, trace) - (trace.carried - trace.sheared);
   t.numerical_granular = granular.bounds + granular.run_out - granular.spared;
   t.upwind_momentum = dt * trace.predictor.upwind_power();
   t.theta_bounds = granular.bounds;

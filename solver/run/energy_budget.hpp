@@ -35,7 +35,9 @@ struct StepTrace {
   const FluidViscosity::Power& viscous;
   const Friction::Power& stress;
   const GranularLosses& granular;
-  double carried;  // elastic energy when the grains were carried, before shear changed their packing [J]
+  const Field& packing;  // at which the grains touched in the pressure step
+  double sheared;        // elastic energy of the old level at that packing [J]
+  double carried;        // the same of the new level
   const LiquidPassed& passed;
 };
 

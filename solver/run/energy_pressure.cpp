@@ -19,7 +19,7 @@ const Field& EnergyBudget::fraction_of_law(const State& now, const State& next) 
 double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const State& next,
                                            const StepTrace& trace) const {
   const double *f = fraction_of_law(now, next).data(), *theta = now.theta.data(),
-               *packing = now.packing.data(), *e = trace.rheology.restitution.data(),
+               *packing = trace.packing.data(), *e = trace.rheology.restitution.data(),
                *resting = trace.rheology.part_cells.resting.data(), *div = trace.strain.divergence.data();
   const Field& stress = trace.rheology.viscous_stress;
   const double* viscous = stress.empty() ? nullptr : stress.data();
@@ -38,7 +38,7 @@ double EnergyBudget::work_of_flow_pressure(double dt, const State& now, const St
 // contacts do not store of it is numerical_elastic of the ledger.
 double EnergyBudget::work_of_contacts(double dt, const State& now, const State& next,
                                       const StepTrace& trace) const {
-  const double *f = fraction_of_law(now, next).data(), *packing = now.packing.data(),
+  const double *f = fraction_of_law(now, next).data(), *packing = trace.packing.data(),
                *div = trace.strain.divergence.data();
   const Contact contact = scene_.contact;
   return dt * grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {

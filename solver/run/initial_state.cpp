@@ -6,6 +6,7 @@
 
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/mixture.hpp"
+#include "solver/operators/pressure_level.hpp"
 #include "solver/run/energy_budget.hpp"
 #include "solver/scene/fill.hpp"
 #include "solver/scene/gravity.hpp"
@@ -57,6 +58,16 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
     }
     top = bottom;
   }
+}
+
+// What obstacles and the gate, still shut, part from the rest.
+void set_pressure_levels(const Grid& grid, const Scene& scene, State& s) {
+  PressureLevel level(grid, scene);
+  if (!level.may_be_parted()) return;  // the columns begin at it
+  ContinuityTree tree(grid);
+  tree.grow(Aperture(grid, scene));
+  level.find_parts(tree);
+  level.set(s.alpha, s.p_c);
 }
 
 void settle(const Grid& grid, const Scene& scene, State& s) {
@@ -122,6 +133,7 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
   }
   // Until here as if the tank were empty: the water on both sides of an obstacle is one body.
   for (const std::ptrdiff_t c : grid.obstacles.cells()) s.f_s[c] = s.alpha[c] = s.phi[c] = s.p_c[c] = 0.0;
+  set_pressure_levels(grid, scene, s);
   if (scene.model.carries_packing()) settle(grid, scene, s);
   s.fill_ghosts(boundary);
   s.energy = EnergyBudget(grid, scene, boundary).stored(s);

@@ -8,7 +8,6 @@
 
 #include "solver/operators/continuity_closure.hpp"
 #include "solver/operators/packing.hpp"
-#include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_transport.hpp"
 #include "solver/run/step_control.hpp"
 
@@ -37,6 +36,11 @@ std::span<const TimeStep::Stage> TimeStep::stages() {
             {&momentum, &kinetic_stress, &friction, &drag, &bed_surface},
             "implicit: solid stress and drag, the fluid eliminated",
             &TimeStep::shear_solid},
+      Stage{"packing",
+            {&packing},
+            "by the shear of the step, with shear dilatancy: the pressure stage meets what it left",
+            &TimeStep::pack,
+            &TimeStep::packing_follows_shear},
       Stage{"fluid viscosity",
             {&momentum, &fluid_viscosity},
             "implicit, where the step is too long for the explicit term",
@@ -55,11 +59,6 @@ std::span<const TimeStep::Stage> TimeStep::stages() {
             "grains, their colour and packing",
             &TimeStep::carry_solid},
       Stage{"transport", {&interface}, "liquid and gas", &TimeStep::carry_liquid},
-      Stage{"packing",
-            {&packing},
-            "by the shear of the step, with shear dilatancy",
-            &TimeStep::pack,
-            &TimeStep::packing_follows_shear},
       Stage{"granular temperature",
             {&granular_temperature, &kinetic_stress},
             "fed by what the kinetic stress spent",
@@ -100,20 +99,28 @@ TimeStep::TimeStep(const Grid& grid, const Scene& scene, Boundary& boundary)
       strain_(grid),
       whole_columns_(grid.has_whole_columns()),
       continuity_tree_(grid),
+      pressure_level_(grid, scene),
       budget_(grid, scene, boundary),
       flux_s_(grid),
       flux_c_(grid),
       flux_c_solved_(grid),
       stirred_(grid),
       production_(grid) {
-  if (!whole_columns_) continuity_tree_.grow(aperture_);
+  part_the_fluid();
   if (aperture_.has_gate()) boundary_.shut_gate(aperture_.gate_face(), aperture_.open_rows());
 }
 
 void TimeStep::move_gate(double time) {
   if (!aperture_.update(time)) return;
-  if (!whole_columns_) continuity_tree_.grow(aperture_);
+  part_the_fluid();
   boundary_.shut_gate(aperture_.gate_face(), aperture_.open_rows());
+}
+
+// As obstacles and the gate do where it stands.
+void TimeStep::part_the_fluid() {
+  const bool may_be_parted = pressure_level_.may_be_parted();
+  if (!whole_columns_ || may_be_parted) continuity_tree_.grow(aperture_);
+  if (may_be_parted) pressure_level_.find_parts(continuity_tree_);
 }
 
 // What the old level says of the laws. The kinetic viscosity is taken at the old Theta, or where grains begin
@@ -148,6 +155,19 @@ void TimeStep::shear_solid(Attempt& step) {
   if (std::isfinite(report.final)) return;
   step.report.refused_because = "the friction solve is not finite";
   step.report.not_finite = true;
+}
+
+// After the shear that friction worked on: elastic waves of the pressure stage, which it has not felt yet,
+// would dilate the bed with energy from nothing. Before that stage: a bed that shear loosens or packs by more
+// in a step than (13) takes to bear its load would else be held, or let go, a step too late.
+void TimeStep::pack(Attempt& step) {
+  State& next = step.next;
+  boundary_.fill_velocity(next.u_strain, Phase::solid);
+  strain_.update(grid_, boundary_.walls(), next.u_strain);
+  shear_packing(grid_, scene_, step.dt, step.now.f_s, rheology_, strain_, next.packing);
+  boundary_.fill_scalar(next.packing);
+  sheared_packing_ = next.packing;
+  step.sheared = budget_.elastic(step.now.f_s, sheared_packing_);
 }
 
 void TimeStep::diffuse_fluid(Attempt& step) {
@@ -203,11 +223,11 @@ void TimeStep::carry_solid(Attempt& step) {
     step.report.not_finite = !std::isfinite(densest);
     return;
   }
-  const auto with_grains = [&](Field State::*quantity) {
-    transport_with_grains(grid_, step.dt, now.f_s, next.f_s, flux_s_, now.*quantity, next.*quantity);
+  const auto with_grains = [&](const Field& from, Field& to) {
+    transport_with_grains(grid_, step.dt, now.f_s, next.f_s, flux_s_, from, to);
   };
-  if (scene_.model.colour) with_grains(&State::phi);
-  if (scene_.model.carries_packing()) with_grains(&State::packing);
+  if (scene_.model.colour) with_grains(now.phi, next.phi);
+  if (scene_.model.carries_packing()) with_grains(packing_of(step), next.packing);
   step.report.solid_left = solid_left(grid_, step.dt, flux_s_);
   boundary_.fill_solid_fraction(next.f_s);
   boundary_.fill_velocity(next.u_s, Phase::solid);
@@ -217,15 +237,7 @@ void TimeStep::carry_solid(Attempt& step) {
 void TimeStep::carry_liquid(Attempt& step) {
   step.passed = &interface_.advance(step.dt, step.now, flux_c_, step.next);
   step.report.liquid_left = step.passed->total(grid_);
-  set_pressure_level(grid_, scene_, step.next.alpha, step.next.p_c);
-}
-
-// After the shear that friction worked on: elastic waves of the pressure stage, which it has not felt yet,
-// would dilate the bed with energy from nothing.
-void TimeStep::pack(Attempt& step) {
-  boundary_.fill_velocity(step.next.u_strain, Phase::solid);
-  strain_.update(grid_, boundary_.walls(), step.next.u_strain);
-  shear_packing(grid_, scene_, step.dt, step.next.f_s, rheology_, strain_, step.next.packing);
+  pressure_level_.set(step.next.alpha, step.next.p_c);
 }
 
 void TimeStep::agitate(Attempt& step) {
@@ -242,10 +254,11 @@ void TimeStep::account(Attempt& step) {
   if (implicit) viscosity_.set_strain(boundary_, next.u_c);
   const FluidViscosity::Power viscous = viscosity_.power(boundary_, implicit ? next.u_c : step.now.u_c);
   if (implicit) step.viscous_power = viscous.walls + viscous.sides - viscous.dissipation;
-  next.energy.add(budget_.of_step(
-      step.dt, step.now, next,
-      {law_, inertia_, drag_.beta(), predictor_, flux_s_, flux_c_, flux_c_solved_, rheology_, strain_,
-       step.viscous_power, viscous, step.stress, step.granular, step.elastic, *step.passed}));
+  next.energy.add(
+      budget_.of_step(step.dt, step.now, next,
+                      {law_, inertia_, drag_.beta(), predictor_, flux_s_, flux_c_, flux_c_solved_, rheology_,
+                       strain_, step.viscous_power, viscous, step.stress, step.granular, packing_of(step),
+                       step.sheared.value_or(step.now.energy.elastic), step.elastic, *step.passed}));
 }
 
 }  // namespace granvof

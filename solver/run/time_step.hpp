@@ -12,6 +12,7 @@
 #include "solver/operators/granular_temperature.hpp"
 #include "solver/operators/implicit_viscosity.hpp"
 #include "solver/operators/interface_transport.hpp"
+#include "solver/operators/pressure_level.hpp"
 #include "solver/operators/solid_momentum.hpp"
 #include "solver/run/energy_budget.hpp"
 #include "solver/run/stopwatch.hpp"
@@ -45,7 +46,8 @@ class TimeStep {
     const BodyAcceleration* extra;
     StepReport report{};
     double viscous_power = 0.0;            // of the fluid, explicit or implicit [W]
-    double elastic = 0.0;                  // stored once the grains were carried [J]
+    std::optional<double> sheared{};       // elastic energy once shear had changed the packing [J]
+    double elastic = 0.0;                  // the same once the grains were carried
     const LiquidPassed* passed = nullptr;  // what crossed the faces
     Friction::Power stress{};              // of the solid
     GranularLosses granular{};
@@ -66,6 +68,7 @@ class TimeStep {
 
  private:
   void move_gate(double time);
+  void part_the_fluid();
   void close(Attempt& step);
   void predict(Attempt& step);
   void shear_solid(Attempt& step);
@@ -77,6 +80,10 @@ class TimeStep {
   void pack(Attempt& step);
   void agitate(Attempt& step);
   void account(Attempt& step);
+  // At which the grains touch in the pressure stage.
+  const Field& packing_of(const Attempt& step) const {
+    return packing_follows_shear(step) ? sheared_packing_ : step.now.packing;
+  }
   bool outruns_explicit_viscosity(const Attempt& step) const { return !viscosity_.bears(step.dt); }
   bool packing_follows_shear(const Attempt&) const { return scene_.model.shear_dilatancy; }
 
@@ -99,9 +106,11 @@ class TimeStep {
   StrainRate strain_;
   bool whole_columns_;  // else the tree closes continuity
   ContinuityTree continuity_tree_;
+  PressureLevel pressure_level_;
   EnergyBudget budget_;
   FaceField flux_s_, flux_c_;  // f_s u_s, f_c u_c through the faces [m/s]
   FaceField flux_c_solved_;    // f_c u_c before continuity was closed
+  Field sheared_packing_;      // the old one after the shear of the step; empty without shear dilatancy
   Field stirred_;              // Theta that the kinetic viscosity is taken at [m2/s2]
   Field production_;           // of Theta: what the kinetic stress dissipates [W/m3]
   Stopwatch cost_;

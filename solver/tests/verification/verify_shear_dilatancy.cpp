@@ -80,5 +80,25 @@ TEST(ShearDilatancy, DenseSucksAndLoosePushes) {
   EXPECT_GT(loose.largest, 20.0);
 }
 
+// Where the front of a loose column of s1 is at the end, with steps up to dt_max [m].
+double front_of_loose_column(const std::string& dt_max) {
+  Simulation run(shipped_scene("s1", {"grid.dx=0.005", "model.preset=sourced", "time.end=5", dt_max}));
+  run.until(run.scene.times.end);
+  const auto dense = [&](int i) { return run.now.f_s[run.cell(i, 0)] > 0.95 * 0.57; };
+  int i = 0;
+  while (dense(i + 1)) ++i;
+  const double inside = run.now.f_s[run.cell(i, 0)], outside = run.now.f_s[run.cell(i + 1, 0)];
+  const double front = 0.005 * (i + 0.5 + (inside - 0.95 * 0.57) / (inside - outside));
+  report("front with " + dt_max, front);
+  return front;
+}
+
+// Its shear packs it within a step by more than its contacts take to bear it: of a pressure that met the
+// packing of the step before, the run-out was 0.10 h0 farther.
+TEST(ShearDilatancy, ALooseColumnRunsAsFarWithLongSteps) {
+  EXPECT_NEAR(front_of_loose_column("numerics.dt_max=5e-3"), front_of_loose_column("numerics.dt_max=6e-4"),
+              0.06 * 0.049);
+}
+
 }  // namespace
 }  // namespace granvof::test
