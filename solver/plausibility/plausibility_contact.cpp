@@ -42,7 +42,12 @@ std::vector<Row> contact_rows() {
             return Usual{1e3 * scales_of(s).time(), 1e15 * scales_of(s).time()};
           },
           "grains at rest creep within the time in which the scene changes, or rounding keeps them from it"),
-      row("contact.fast_friction", "", of_bed([](const Contact& c) { return c.fast_friction; }),
+      row(
+          "contact.fast_friction", "",
+          [](const Scene& s) {  // what solid.friction is itself is said of that
+            return s.contact.fast_friction == s.solid.friction ? std::nullopt
+                                                               : if_bed(s, s.contact.fast_friction);
+          },
           Usual{0.05, steepest}, "the tangent of an angle; degrees?"),
       row("contact.inertial_number", "", of_bed([](const Contact& c) { return c.inertial_number; }),
           Usual{0.01, 2.0}, "glass beads have 0.28"),

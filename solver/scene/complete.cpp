@@ -96,7 +96,7 @@ void complete_materials(Completion& c) {
   if (!c.has("liquid")) c.s.liquid = c.s.gas;
   c.rule({"tank", "scene.dimensions", "liquid.level"}, [&] { level(c); });
   c.rule({"tank", "scene.dimensions", "liquid.box"}, [&] { liquid_box(c); });
-  const Contact& contact = c.s.contact;
+  Contact& contact = c.s.contact;
   c.rule({"contact.solid_fraction_min", "contact.solid_fraction_max"}, [&] {
     if (contact.solid_fraction_min >= contact.solid_fraction_max) {
       c.refuse("contact.solid_fraction_min",
@@ -105,6 +105,9 @@ void complete_materials(Completion& c) {
   });
   c.rule({"contact.fast_friction", "solid.friction", "model"}, [&] {
     constexpr std::string_view key = "contact.fast_friction";
+    // that of glass beads, for grains that rub no more than they do
+    if (!c.given(std::string(key)))
+      contact.fast_friction = std::max(contact.fast_friction, c.s.solid.friction);
     if ((c.s.model.friction_law.facts().reads_key(key) || c.s.model.thin_layer_arrest) &&
         contact.fast_friction < c.s.solid.friction) {
       c.refuse(std::string(key),

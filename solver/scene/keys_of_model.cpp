@@ -28,9 +28,11 @@ std::vector<Key> contact_keys() {
           "f_s,max."),
       key(parts::friction, "contact.regularisation", "s", positive, of(&Contact::regularisation),
           "n of (17)."),
-      key(parts::friction, "contact.fast_friction", "-", not_negative, of(&Contact::fast_friction),
-          "mu_2 of mu(I), mu(I_v) and h_stop; at least solid.friction with a friction_law that reads it or "
-          "thin_layer_arrest."),
+      otherwise(
+          key(parts::friction, "contact.fast_friction", "-", not_negative, of(&Contact::fast_friction),
+              "mu_2 of mu(I), mu(I_v) and h_stop; at least solid.friction with a friction_law that reads "
+              "it or thin_layer_arrest."),
+          "0.643, or solid.friction where that is more"),
       key(parts::friction, "contact.inertial_number", "-", positive, of(&Contact::inertial_number),
           "I_0 of mu(I)."),
       came_later(key(parts::friction, "contact.stop_length", "-", positive, of(&Contact::stop_length),

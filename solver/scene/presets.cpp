@@ -24,16 +24,18 @@ const std::vector<PresetEntry>& presets() {
 const std::vector<Choice>& choices() {
   static const std::vector<Choice> list{
       {.key = "numerics.solid_flux",
+       .advised = "compressive",
        .sourced = "compressive",
        .reason =
            "Second order, bounded; the steepest flux of f_s (superbee, Roe 1985) keeps the bed's surface "
            "sharp, which upwind smears over three or four cells that run on as a density current."},
       {.key = "numerics.solid_convection",
-       .reason =
-           "Conserves momentum with mass (Rudman 1998), so that grains fall freely as they should. No preset "
-           "has it: it lets smeared toes of a bed run that friction hardly holds."},
+       .advised = "mass-consistent",
+       .sourced = "mass-consistent",
+       .reason = "Conserves momentum with mass (Rudman 1998), so that grains fall freely as they should."},
       {.key = "numerics.fluid_convection",
        .advised = "mass-consistent",
+       .sourced = "mass-consistent",
        .reason =
            "Conserves momentum with mass (Rudman 1998): by its own speed a face that liquid reaches in a "
            "gas holds it up, on every grid."},
@@ -50,6 +52,7 @@ const std::vector<Choice>& choices() {
                  "springs apart or sinks until (13) bears its weight, and light grains are lifted off the "
                  "slope."},
       {.key = "model.friction_law",
+       .advised = "inertial",
        .sourced = "inertial",
        .reason = "Friction grows with the rate of shear, from solid.friction at rest (Jop et al. 2006)."},
       {.key = "model.shear_dilatancy",
@@ -78,8 +81,10 @@ const std::vector<Choice>& choices() {
            "Collisions of dense smooth grains as DEM has them: (19) is three times too stiff in a dense "
            "core (Chialvo and Sundaresan 2013)."},
       {.key = "model.kinetic_transport",
+       .advised = "with-streaming",
+       .sourced = "with-streaming",
        .reason = "Dilute grains carry momentum and heat as they fly, which (20) and (22) leave out (Syamlal "
-                 "et al. 1993)."},
+                 "et al. 1993): without it nothing stops a toe of few grains in air."},
       {.key = "model.correlated_collisions",
        .reason =
            "Dense grains of low restitution dissipate less than chance collisions would (Jenkins 2007)."},

@@ -142,8 +142,8 @@ const std::vector<Refused> geometry{
       "at least solid.friction = 0.4, with friction_law = \"inertial\" or "
       "\"viscous\", or thin_layer_arrest (model.preset = \"paper\")"}},
     {"fast_friction_of_a_preset",
-     {"model.preset=sourced", "solid.friction=0.7"},
-     {"contact.fast_friction: got 0.643 (the default)", "(model.preset = \"sourced\")"}},
+     {"model.preset=sourced", "solid.friction=0.7", "contact.fast_friction=0.65"},
+     {"contact.fast_friction: got 0.65", "(model.preset = \"sourced\")"}},
     {"contact_dense", {"contact.dense_solid_fraction=0.65"}, {"at most contact.solid_fraction_max = 0.63"}},
     {"level_above_tank",
      {"liquid.level=0.13"},

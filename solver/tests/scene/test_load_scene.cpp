@@ -164,6 +164,12 @@ TEST(LoadScene, FrictionOfAWallComesFromAll) {
   EXPECT_EQ(with({"walls.left=no-slip"}), (PhaseWall{WallKind::no_slip, 0.0}));
 }
 
+TEST(LoadScene, GrainsThatRubMoreThanGlassRubNoLessWhenFast) {
+  EXPECT_EQ(small({"solid.friction=0.4"}).contact.fast_friction, 0.643);
+  EXPECT_EQ(small({"solid.friction=0.8"}).contact.fast_friction, 0.8);
+  EXPECT_EQ(small({"solid.friction=0.8", "contact.fast_friction=0.9"}).contact.fast_friction, 0.9);
+}
+
 TEST(LoadScene, AMovingWallKeepsWhatAllSays) {
   const Side side = small({"walls.all.fluid=slip", "walls.bottom.velocity=[0.1, 0]"}).sides[bottom];
   EXPECT_EQ(side.fluid.kind, WallKind::slip);
