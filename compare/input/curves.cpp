@@ -6,6 +6,7 @@
 #include "compare/metrics/base_pressure.hpp"
 #include "compare/metrics/dam_break.hpp"
 #include "compare/metrics/solid_level.hpp"
+#include "solver/output/extract_bed.hpp"
 #include "solver/output/fields_file.hpp"
 #include "solver/scene/gravity.hpp"
 
@@ -42,7 +43,12 @@ Curve free_front(const Run& run) {
 double base_pressure_at_rest(const Scene& scene) {
   double level = 0.0;
   for (const Box& box : scene.liquid_boxes) level = std::max(level, box.upper[1]);
-  const double depth = level - 0.5 * scene.grid.spacing[1];
+  CellFields grid;
+  grid.cells = scene.grid.cells;
+  grid.spacing = scene.grid.spacing;
+  const double lowest = 0.5 * grid.spacing[1];
+  const double base = scene.obstacles.empty() ? lowest : scalar::base_height(grid, scene).value_or(lowest);
+  const double depth = level - base;
   return normal_gravity(scene) * (scene.liquid.density * depth + scene.gas.density * (scene.tank[1] - level));
 }
 

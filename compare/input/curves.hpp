@@ -27,7 +27,8 @@ Curve free_front(const Run& run);
 // Pressure at the base less its value in the same tank at rest [Pa] against t [s].
 Curve excess_base_pressure(const Run& run);
 
-// Hydrostatic pressure where p_base is taken, at the centres of the lowest cells, P = 0 at the open top [Pa].
+// Hydrostatic pressure where p_base is taken, at the centres of the lowest open cells, P = 0 at the open top
+// [Pa].
 double base_pressure_at_rest(const Scene& scene);
 
 // The deposit at T; nothing if the run wrote no fields then, or the scene has no bed.

@@ -27,7 +27,9 @@ constexpr std::array table{
     ScalarEntry{"slope", "deg",
                 "angle of the deposit's face towards +x, line through h(x) from 80 to 20 % of its largest",
                 slope},
-    ScalarEntry{"p_base", "Pa", "mean P_c at the centres of the lowest cells under the bed's initial base",
+    ScalarEntry{"p_base", "Pa",
+                "mean P_c at the centres of the lowest cells under the bed's initial base, on the floor or "
+                "an obstacle",
                 p_base},
     ScalarEntry{"y_c", "m", "centre of the cells with f_s > 0.95 f_s,min, eq (27)", y_c},
     ScalarEntry{"bed_bottom", "m",

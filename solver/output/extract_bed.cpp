@@ -42,9 +42,9 @@ Value upper_edge(const std::vector<double>& profile, double threshold) {
   return static_cast<double>(last) + full(at(last)) + full(at(last + 1));
 }
 
-}  // namespace
-
-Value p_base(const CellFields& fields, const Scene& scene) {
+// Mean of value(j, cell) over the lowest open cells of the columns under the bed's initial base.
+template <class OfCell>
+Value mean_over_base(const CellFields& fields, const Scene& scene, OfCell&& value) {
   if (!scene.bed) return std::nullopt;
   const auto share_x = share_under_bed(fields, scene, 0);
   const auto share_z = share_under_bed(fields, scene, 2);
@@ -53,14 +53,26 @@ Value p_base(const CellFields& fields, const Scene& scene) {
   const std::vector<bool> solid = obstacle_cells(fields, scene);
   for (int k = 0; k < fields.cells[2]; ++k) {
     for (int i = 0; i < fields.cells[0]; ++i) {
-      if (!solid.empty() && solid[cell_index(fields, i, 0, k)]) continue;
+      int j = 0;
+      while (!solid.empty() && j < fields.cells[1] && solid[cell_index(fields, i, j, k)]) ++j;
+      if (j == fields.cells[1]) continue;
       const double share = share_x[static_cast<std::size_t>(i)] * share_z[static_cast<std::size_t>(k)];
       weight += share;
-      sum += share * fields.p_c[cell_index(fields, i, 0, k)];
+      sum += share * value(j, cell_index(fields, i, j, k));
     }
   }
   if (weight == 0.0) return std::nullopt;
   return sum / weight;
+}
+
+}  // namespace
+
+Value p_base(const CellFields& fields, const Scene& scene) {
+  return mean_over_base(fields, scene, [&](int, std::size_t cell) { return fields.p_c[cell]; });
+}
+
+Value base_height(const CellFields& fields, const Scene& scene) {
+  return mean_over_base(fields, scene, [&](int j, std::size_t) { return (j + 0.5) * fields.spacing[1]; });
 }
 
 Value y_c(const CellFields& fields, const Scene& scene) {

@@ -53,7 +53,8 @@ double present_threshold(const Scene& scene) {
 
 std::vector<bool> obstacle_cells(const CellFields& fields, const Scene& scene) {
   if (scene.obstacles.empty()) return {};
-  std::vector<bool> solid(fields.f_s.size(), false);
+  const auto& n = fields.cells;
+  std::vector<bool> solid(static_cast<std::size_t>(n[0]) * n[1] * n[2], false);
   const auto inside = [&](const Box& box, const std::array<int, 3>& at) {
     for (std::size_t d = 0; d < static_cast<std::size_t>(scene.dimensions); ++d) {
       const double centre = (at[d] + 0.5) * fields.spacing[d];

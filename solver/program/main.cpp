@@ -109,8 +109,8 @@ int check(const Arguments& arguments) {
   const granvof::CostEstimate cost = granvof::estimate_cost(scene);
   fmt::print("# {}: {} x {} x {} cells, {:.6g} s; physics {}\n", scene.name, cells[0], cells[1], cells[2],
              scene.times.end, scene.hash);
-  fmt::print("# estimated: {:.2g} steps, {:.2g} s on one core, {:.2g} MB\n", cost.steps, cost.core_seconds,
-             1e-6 * granvof::memory_demand(scene));
+  fmt::print("# estimated: {:.2g} steps, {:.2g} s on one core, {:.2g} MB; motion up to {:.2g} m/s\n",
+             cost.steps, cost.core_seconds, 1e-6 * granvof::memory_demand(scene), cost.fastest);
   const granvof::PartsOfModel parts = granvof::parts_of_model(scene);
   fmt::print("# model: {}\n# not in this scene: {}\n\n{}", names_of(parts.act), names_of(parts.rest),
              scene.resolved);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "solver/scene/gravity.hpp"
 #include "solver/scene/scales.hpp"
 
 namespace granvof {
@@ -78,6 +79,16 @@ double energy_at_hand(const Scene& scene, const EnergyTerms& start) {
 
 double least_energy(const Scene& scene, const EnergyTerms& start) {
   return least_share_of_store * energy_at_hand(scene, start) + least_share_of_bed * energy_of_bed(scene);
+}
+
+// What all that the tank holds gains where it runs from one end of an inclined floor to the other: the
+// start's potential counts from one corner, and says nothing of how far down the other is [J].
+double energy_of_slide(const Scene& scene, const Monitors& monitors, const State& s) {
+  const double weight_along = std::fabs(confined_gravity(scene)[0]);
+  if (weight_along == 0.0) return 0.0;
+  const double mass =
+      scene.solid.density * monitors.solid_volume(s) + scene.liquid.density * monitors.liquid_volume(s);
+  return mass * weight_along * scene.tank[0];
 }
 
 double share_of_residual(const Watched& w) {
@@ -183,7 +194,8 @@ std::string Alarms::check(const State& s, const Monitors& monitors, const StepCo
   // In an inclined tank the potential counts from the upper end and may be negative: its size is what counts.
   const double given =
       std::fabs(start_.stored()) + e.walls + std::max(-e.outflow, 0.0) + least_energy(scene_, start_);
-  if (e.in_motion() > energy_that_stops * given)
+  if (e.in_motion() > energy_that_stops * given &&
+      e.in_motion() > energy_that_stops * (given + energy_of_slide(scene_, monitors, s)))
     return fmt::format("blow-up: {:.3g} J in motion at t = {:.6g} s, and the run was given {:.3g} J",
                        e.in_motion(), s.time, given);
   return {};

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/mixture.hpp"
-#include "solver/operators/pressure_level.hpp"
 #include "solver/run/energy_budget.hpp"
+#include "solver/run/hydrostatic_pressure.hpp"
 #include "solver/scene/fill.hpp"
 #include "solver/scene/gravity.hpp"
 
@@ -17,13 +16,26 @@ namespace {
 // A bed whose packing is a matter of its history is at rest at whatever solid fraction it has: P_s carries
 // the submerged weight of the grains above, and f_p follows from (13). What no floor or lid holds hangs in
 // free fall, or floats: of its load only what bends it is borne, none where all grains weigh alike.
-void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s) {
+void settle_column(const Grid& grid, const Scene& scene, const Field& lack, int i, int k, State& s) {
   const Layout& l = grid.cells;
   const int rows = l.n[1];
   const auto weight = [&](int j) {  // submerged, per area [Pa]
     const std::ptrdiff_t c = l.index(i, j, k);
     return (scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density)) * s.f_s[c] *
            normal_gravity(scene) * grid.h[1];
+  };
+  // What grains bear beside that on the face above a cell, where its fluid weighs less than the mean of both
+  // cells' [Pa]: all of it that is not in P_c.
+  const auto more_above = [&](int j) {
+    if (lack.empty() || j == rows - 1) return 0.0;
+    const std::ptrdiff_t c = l.index(i, j, k), above = l.index(i, j + 1, k);
+    const auto density = [&](std::ptrdiff_t at) {
+      return mixture(s.alpha[at], scene.liquid.density, scene.gas.density);
+    };
+    const double f_s = 0.5 * (s.f_s[c] + s.f_s[above]);
+    return (1.0 - f_s) * density_lack(s.f_s[c], density(c), s.f_s[above], density(above)) *
+               normal_gravity(scene) * grid.h[1] -
+           f_s * (lack[c] - lack[above]);
   };
   const auto has_grains = [&](int j) { return s.f_s[l.index(i, j, k)] >= least_solid_fraction; };
   const char* solid = grid.obstacles.solid();
@@ -33,16 +45,17 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
   };
   for (int top = rows - 1; top >= 0; --top) {
     if (!has_grains(top)) continue;
-    double load = 0.0, grains = 0.0;  // of all cells down to `bottom`
+    double load = borne_by(top, true) ? 0.0 : more_above(top), grains = 0.0;  // of all cells down to `bottom`
     int bottom = top;
     for (int j = top; j >= 0 && has_grains(j); --j) {
       bottom = j;
       load += weight(j);
+      if (!borne_by(j, false)) load += more_above(j - 1);
       grains += s.f_s[l.index(i, j, k)];
     }
     const bool on_floor = load > 0.0 && borne_by(bottom, false),
                under_lid = load < 0.0 && borne_by(top, true);
-    double p = under_lid ? -load : 0.0;  // at the upper face
+    double p = under_lid ? -load : borne_by(top, true) ? 0.0 : more_above(top);  // at the upper face
     const double per_grain = on_floor || under_lid ? 0.0 : load / grains;
     for (int j = top; j >= bottom; --j) {
       const std::ptrdiff_t c = l.index(i, j, k);
@@ -55,24 +68,15 @@ void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s)
         });
       }
       p += 2.0 * half;
+      if (j > bottom) p += more_above(j - 1);
     }
     top = bottom;
   }
 }
 
-// What obstacles and the gate, still shut, part from the rest.
-void set_pressure_levels(const Grid& grid, const Scene& scene, State& s) {
-  PressureLevel level(grid, scene);
-  if (!level.may_be_parted()) return;  // the columns begin at it
-  ContinuityTree tree(grid);
-  tree.grow(Aperture(grid, scene));
-  level.find_parts(tree);
-  level.set(s.alpha, s.p_c);
-}
-
-void settle(const Grid& grid, const Scene& scene, State& s) {
+void settle(const Grid& grid, const Scene& scene, const Field& lack, State& s) {
   for (int k = 0; k < grid.cells.n[2]; ++k)
-    for (int i = 0; i < grid.cells.n[0]; ++i) settle_column(grid, scene, i, k, s);
+    for (int i = 0; i < grid.cells.n[0]; ++i) settle_column(grid, scene, lack, i, k, s);
 }
 
 }  // namespace
@@ -99,42 +103,10 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
               (1.0 - s.f_s[c]),
           0.0, 1.0);
   });
-  // Hydrostatic from the top down, with the continuous phase alone: grains at rest hang on P_s, not on P_c.
-  // Under an inclined top, from its middle.
-  const Layout& l = grid.cells;
-  const double normal = normal_gravity(scene), along = confined_gravity(scene)[0];
-  const auto density = [&](std::ptrdiff_t c) {
-    return mixture(s.alpha[c], scene.liquid.density, scene.gas.density);
-  };
-  const auto pressure_at_the_top = [&](int k) {
-    std::vector<double> pressure(static_cast<std::size_t>(l.n[0]), 0.0);
-    double mean = 0.0;
-    for (int i = 1; i < l.n[0]; ++i) {
-      const std::ptrdiff_t c = l.index(i, l.n[1] - 1, k);
-      const std::size_t here = static_cast<std::size_t>(i);
-      pressure[here] = pressure[here - 1] + 0.5 * (density(c - 1) + density(c)) * along * grid.h[0];
-      mean += pressure[here] / l.n[0];
-    }
-    for (double& p : pressure) p -= mean;
-    return pressure;
-  };
-  for (int k = 0; k < l.n[2]; ++k) {
-    const std::vector<double> top = pressure_at_the_top(k);
-    for (int i = 0; i < l.n[0]; ++i) {
-      double pressure = top[static_cast<std::size_t>(i)], above = 0.0;
-      for (int j = l.n[1] - 1; j >= 0; --j) {
-        const std::ptrdiff_t c = l.index(i, j, k);
-        const double here = density(c);
-        pressure += 0.5 * (above + here) * normal * grid.h[1];
-        s.p_c[c] = pressure;
-        above = here;
-      }
-    }
-  }
-  // Until here as if the tank were empty: the water on both sides of an obstacle is one body.
-  for (const std::ptrdiff_t c : grid.obstacles.cells()) s.f_s[c] = s.alpha[c] = s.phi[c] = s.p_c[c] = 0.0;
-  set_pressure_levels(grid, scene, s);
-  if (scene.model.carries_packing()) settle(grid, scene, s);
+  boundary.fill_solid_fraction(s.f_s);
+  boundary.fill_liquid_share(s.alpha);
+  const Field lack = set_hydrostatic_pressure(grid, scene, s);
+  if (scene.model.carries_packing()) settle(grid, scene, lack, s);
   s.fill_ghosts(boundary);
   s.energy = EnergyBudget(grid, scene, boundary).stored(s);
   return s;

@@ -25,6 +25,21 @@ TEST(BasePressure, IsTheMeanOfTheLowestRowUnderTheBed) {
   EXPECT_NEAR(*p_base(fields, scene), (100.0 + 200.0 + 0.5 * 300.0) / 2.5, 1e-10);
 }
 
+// Over the whole floor, and over a part of it: each column has its own base.
+TEST(BasePressure, IsTakenOnTopOfObstaclesOnTheFloor) {
+  auto scene = small_scene();  // cells of 0.05 x 0.02 m
+  scene.bed = bed_of({0.0, 0.04, 0.0}, {0.2, 0.08, 0.1});
+  auto fields = empty_fields(scene);
+  for (int j = 0; j < 5; ++j) fill(fields, fields.p_c, {0, 8}, {j, j + 1}, 100.0 * (j + 1));
+  scene.obstacles = {{{0.0, 0.0, 0.0}, {0.4, 0.04, 0.1}}};
+  EXPECT_EQ(p_base(fields, scene), 300.0);
+  EXPECT_NEAR(*base_height(fields, scene), 0.05, 1e-14);
+  scene.obstacles = {{{0.0, 0.0, 0.0}, {0.1, 0.04, 0.1}}, {{0.1, 0.04, 0.0}, {0.2, 0.06, 0.1}}};
+  EXPECT_EQ(p_base(fields, scene), 200.0);  // the second is a roof over an open floor
+  scene.obstacles = {{{0.0, 0.0, 0.0}, {0.2, 0.1, 0.1}}};
+  EXPECT_FALSE(p_base(fields, scene));
+}
+
 TEST(BasePressure, In3DCountsOnlyTheBedsShareOfTheWidth) {
   auto scene = small_scene_3d();
   auto fields = empty_fields(scene);

@@ -277,6 +277,16 @@ class AlarmRules : public ::testing::Test {
   State state_;
 };
 
+// What runs down an inclined tank stores next to nothing by the corner that its potential counts from.
+TEST_F(RunAlarms, WaterThatRunsDownAnInclinedTankIsNoBlowUp) {
+  const Scene scene = parse_scene(
+      "[scene]\nname = \"tilted\"\n[tank]\nsize = [2.0, 0.2]\ninclination = 20\n[grid]\ndx = 0.05\n"
+      "[walls]\nall = \"slip\"\ntop = \"open\"\n[gas]\ndensity = 1\nviscosity = 1e-5\n[liquid]\n"
+      "density = 1000\nviscosity = 1e-3\nbox = { origin = [0, 0], size = [0.3, 0.1] }\n[time]\nend = 0.6\n",
+      "tilted.toml");
+  EXPECT_EQ(run_into(path("tilted"), scene), 0);
+}
+
 TEST_F(AlarmRules, EachLimitRaisesItsOwnAlarm) {
   EXPECT_TRUE(raised(moving()).empty());
   EXPECT_EQ(stopped_, "");

@@ -20,7 +20,11 @@ using test::Simulation;
 using test::Variant;
 
 constexpr int steps = 12;
-constexpr double agreement = 1e-10;  // of the largest value of a field
+// Of the largest value of a field. The one solve of explicit contacts ends at the tolerance, where Newton's
+// last one overshoots, and a tolerance near rounding refuses a step in one run and not in the other.
+double agreement_in(const Scene& scene) {
+  return scene.numerics.contact_pressure == ContactPressure::explicit_ ? 1e-7 : 1e-10;
+}
 
 // Half a tank of liquid, in it a bed narrower than the tank that begins at the seam and reaches out of the
 // liquid; the floor is rough and moves.
@@ -190,8 +194,8 @@ void expect_shift_invariant(const Scene& scene, const Scene& moved, int along) {
     shifted.advance();
     if (::testing::Test::HasFatalFailure()) return;
     const Difference d = difference(given, shifted, along);
-    EXPECT_LT(d.largest, agreement) << d.where << ", along "
-                                    << "xyz"[along] << ", step " << i + 1;
+    EXPECT_LT(d.largest, agreement_in(scene)) << d.where << ", along "
+                                              << "xyz"[along] << ", step " << i + 1;
     furthest = std::fmax(furthest, d.largest);
     set_shifted(given, along, shifted);
   }
@@ -221,7 +225,7 @@ void expect_uniform_along_x(const std::vector<std::string>& overrides) {
         largest = std::fmax(largest, std::fabs(f[l.index(i, j, 0)]));
         apart = std::fmax(apart, std::fabs(f[l.index(i, j, 0)] - f[l.index(0, j, 0)]));
       }
-    EXPECT_LT(apart, agreement * largest) << name;
+    EXPECT_LT(apart, agreement_in(run.scene) * largest) << name;
     EXPECT_GT(largest, least) << name;
   };
   expect_uniform("theta", run.now.theta, 1e-9);
@@ -277,10 +281,8 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"coulomb_floor", {"walls.bottom.solid=coulomb", "walls.bottom.solid_friction=0.2"}},
         Variant{"slip", {"walls.all=slip", "walls.bottom.fluid=no-slip", "walls.bottom.solid=no-slip"}},
         Variant{"thick_liquid", {"liquid.viscosity=5"}}, Variant{"light_grains", {"solid.density=500"}},
-        // its one solve ends at the tolerance, where Newton's last one overshoots: 1e-12 leaves 1.5e-7 of
-        // P_c, 1e-14 3e-10
         Variant{"explicit_contact",
-                {"numerics.contact_pressure=explicit", "numerics.volume_tolerance=5e-15"}},
+                {"numerics.contact_pressure=explicit", "numerics.volume_tolerance=1e-13"}},
         Variant{
             "everything",
             {"numerics.solid_flux=limited", "numerics.bed_surface=part-cells", "model.friction_law=inertial",

@@ -123,6 +123,8 @@ const std::vector<Mistake> mistakes{
      {"bed.height=0.015", "solid.diameter=1e-4"},
      {"bed.height", "reference.cell", "reference.dt"},
      "two cells"},
+    {"high_cells", {"grid.dx=0.002", "grid.dy=0.012"}, {"grid.dy"}, "= 0.012 m: usual is 0.0002 to 0.008 m"},
+    {"wide_cells", {"grid.dx=0.02", "grid.dy=0.0015"}, {"grid.dy"}, "13.3 times"},
     {"flat_cells", {"grid.dy=1e-4"}, {"grid.dy", "solid.diameter"}, "grid.dy = 0.0001 m"},
     {"one_band",
      {"bed.colour=layers", "bed.colour_size=0.2"},
@@ -236,6 +238,15 @@ TEST(Plausibility, TakesWhatIsLeftOutForMeant) {
 // All that is shipped is meant (a material is no case), but for two beds that are known to spring, two
 // coarse-grained sections and a state without gradients whose grains are larger than their cells, and a grid
 // of 5 mm that has no face where the gate of s1 stands.
+// Nothing varies along an axis of one cell, which may be as long as the tank is.
+TEST(Plausibility, ATankOfOneCellAcrossHasNoLongCells) {
+  const auto rows = [](const std::string& dx) {
+    return keys_of(plausibility(small({"gate=false", "grid.dy=0.002", "bed.length=0.4", dx})));
+  };
+  EXPECT_EQ(std::ranges::count(rows("grid.dx=0.04"), "grid.dy"), 1);
+  EXPECT_EQ(std::ranges::count(rows("grid.dx=0.4"), "grid.dy"), 0);
+}
+
 TEST(Plausibility, IsSilentOnShippedCases) {
   namespace fs = std::filesystem;
   int count = 0;
