@@ -105,11 +105,11 @@ void complete_materials(Completion& c) {
   });
   c.rule({"contact.fast_friction", "solid.friction", "model"}, [&] {
     constexpr std::string_view key = "contact.fast_friction";
+    if (!c.s.model.friction_law.facts().reads_key(key) && !c.s.model.thin_layer_arrest) return;
     // that of glass beads, for grains that rub no more than they do
     if (!c.given(std::string(key)))
       contact.fast_friction = std::max(contact.fast_friction, c.s.solid.friction);
-    if ((c.s.model.friction_law.facts().reads_key(key) || c.s.model.thin_layer_arrest) &&
-        contact.fast_friction < c.s.solid.friction) {
+    if (contact.fast_friction < c.s.solid.friction) {
       c.refuse(std::string(key),
                fmt::format("at least solid.friction = {}, with friction_law = {}, or thin_layer_arrest "
                            "(model.preset = \"{}\")",

@@ -165,9 +165,11 @@ TEST(LoadScene, FrictionOfAWallComesFromAll) {
 }
 
 TEST(LoadScene, GrainsThatRubMoreThanGlassRubNoLessWhenFast) {
-  EXPECT_EQ(small({"solid.friction=0.4"}).contact.fast_friction, 0.643);
-  EXPECT_EQ(small({"solid.friction=0.8"}).contact.fast_friction, 0.8);
-  EXPECT_EQ(small({"solid.friction=0.8", "contact.fast_friction=0.9"}).contact.fast_friction, 0.9);
+  EXPECT_EQ(small({"model.preset=sourced"}).contact.fast_friction, 0.643);
+  EXPECT_EQ(small({"model.preset=sourced", "solid.friction=0.8"}).contact.fast_friction, 0.8);
+  EXPECT_EQ(small({"model.preset=sourced", "solid.friction=0.8", "contact.fast_friction=0.9"})
+                .contact.fast_friction,
+            0.9);
 }
 
 TEST(LoadScene, AMovingWallKeepsWhatAllSays) {

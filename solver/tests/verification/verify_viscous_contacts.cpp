@@ -83,32 +83,38 @@ double mean(const Curve& curve, double from, double to) {
 }
 
 // Dense: it sucks at its pores, creeps, and speeds up over minutes as it dilates. Goals are 30 % in delay,
-// sign and size of the pressure. Sign and largest suction are met (-2.8 of -3.4 Pa). By name not met: the
-// suction fades too soon (its mean from 40 to 160 s is 0.6 of theirs), so that half of the last speed is
-// there at 120 s instead of 200 s, and that speed is 0.45 of theirs. Not the cause, each tried:
-// f_c 0.585, f_s,max 0.62. Red if any gets worse, and if it is met.
+// sign and size of the pressure, met with steps of 12.5 ms: half of the last speed is there after 196 s of
+// 200, that speed is 0.90 of theirs, the largest suction from 10 s on -2.8 of -3.4 Pa. The delay is a matter
+// of the step: 95, 110, 136, 212 s with 200, 100, 50, 25 ms. By name not met: the suction fades too soon (its
+// mean from 40 to 160 s is 0.61 of theirs), and their first reading, -2.2 Pa after 0.6 s, is -3.8 here. Red
+// if either gets worse, and if it is met.
 TEST(TiltedLayer, DenseStartsLateAndSucks) {
-  const Start start = start_of(0.584, 520.0, {"numerics.dt_max=0.1"});
+  const Start start = start_of(0.584, 520.0, {"numerics.dt_max=0.0125"});
   if (HasFatalFailure()) return;
   const Curve speed = measured("speed_584"), pressure = measured("pressure_584");
-  const double suction = std::ranges::min(start.pressure.y), theirs = std::ranges::min(pressure.y);
+  double suction = 0.0;
+  for (std::size_t i = 0; i < start.pressure.x.size(); ++i)
+    if (start.pressure.x[i] > 10.0) suction = std::min(suction, start.pressure.y[i]);
+  const double theirs = std::ranges::min(pressure.y);
+  const double first = start.pressure(pressure.x.front()) / pressure.y.front();
   const double later = mean(start.pressure, 40.0, 160.0) / mean(pressure, 40.0, 160.0);
   const double late = delay(start.speed) / delay(speed), fast = start.speed.y.back() / speed.y.back();
   report("largest_suction", suction);
   report("largest_suction_measured", theirs);
   report("mean_suction_over_measured", later);
+  report("first_suction_over_measured", first);
   report("delay", delay(start.speed));
   report("delay_over_measured", late);
   report("last_speed_over_measured", fast);
   EXPECT_NEAR(suction, theirs, 0.3 * std::fabs(theirs));
   EXPECT_LT(mean(start.pressure, 10.0, 300.0), 0.0);
   EXPECT_LT(start.speed(20.0), 0.25 * start.speed.y.back());
+  EXPECT_NEAR(late, 1.0, 0.3);
+  EXPECT_NEAR(fast, 1.0, 0.3);
   EXPECT_LT(later, 0.7);
-  EXPECT_GT(later, 0.5);
-  EXPECT_LT(late, 0.7);
-  EXPECT_GT(late, 0.5);
-  EXPECT_LT(fast, 0.7);
-  EXPECT_GT(fast, 0.4);
+  EXPECT_GT(later, 0.55);
+  EXPECT_GT(first, 1.3);
+  EXPECT_LT(first, 2.0);
 }
 
 // Loose: it pushes at its pores and runs at once. Sign, size and speed are met for the first 20 s; theirs
