@@ -42,37 +42,55 @@ Value upper_edge(const std::vector<double>& profile, double threshold) {
   return static_cast<double>(last) + full(at(last)) + full(at(last + 1));
 }
 
-// Mean of value(j, cell) over the lowest open cells of the columns under the bed's initial base.
-template <class OfCell>
-Value mean_over_base(const CellFields& fields, const Scene& scene, OfCell&& value) {
-  if (!scene.bed) return std::nullopt;
-  const auto share_x = share_under_bed(fields, scene, 0);
-  const auto share_z = share_under_bed(fields, scene, 2);
-  double weight = 0.0;
-  double sum = 0.0;
+// P_c in the lowest cell of every column that no obstacle fills; and 1, or 0 where there is none.
+struct Base {
+  std::vector<double> pressure, open;
+};
+Base base_of_columns(const CellFields& fields, const Scene& scene) {
+  Base base;
   const std::vector<bool> solid = obstacle_cells(fields, scene);
   for (int k = 0; k < fields.cells[2]; ++k) {
     for (int i = 0; i < fields.cells[0]; ++i) {
       int j = 0;
       while (!solid.empty() && j < fields.cells[1] && solid[cell_index(fields, i, j, k)]) ++j;
-      if (j == fields.cells[1]) continue;
-      const double share = share_x[static_cast<std::size_t>(i)] * share_z[static_cast<std::size_t>(k)];
+      const bool open = j < fields.cells[1];
+      base.open.push_back(open ? 1.0 : 0.0);
+      base.pressure.push_back(open ? fields.p_c[cell_index(fields, i, j, k)] : 0.0);
+    }
+  }
+  return base;
+}
+
+}  // namespace
+
+Value p_base(const CellFields& fields, const Scene& scene) {
+  if (!scene.bed) return std::nullopt;
+  const auto share_x = share_under_bed(fields, scene, 0);
+  const auto share_z = share_under_bed(fields, scene, 2);
+  double weight = 0.0;
+  double sum = 0.0;
+  const Base base = base_of_columns(fields, scene);
+  std::size_t column = 0;
+  for (const double z : share_z) {
+    for (const double x : share_x) {
+      const double share = x * z * base.open[column];
       weight += share;
-      sum += share * value(j, cell_index(fields, i, j, k));
+      sum += share * base.pressure[column++];
     }
   }
   if (weight == 0.0) return std::nullopt;
   return sum / weight;
 }
 
-}  // namespace
-
-Value p_base(const CellFields& fields, const Scene& scene) {
-  return mean_over_base(fields, scene, [&](int, std::size_t cell) { return fields.p_c[cell]; });
-}
-
-Value base_height(const CellFields& fields, const Scene& scene) {
-  return mean_over_base(fields, scene, [&](int j, std::size_t) { return (j + 0.5) * fields.spacing[1]; });
+Value base_height(const CellFields& grid, const Scene& scene) {
+  CellFields heights;
+  heights.cells = grid.cells;
+  heights.spacing = grid.spacing;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      heights.p_c.insert(heights.p_c.end(), static_cast<std::size_t>(grid.cells[0]),
+                         (j + 0.5) * grid.spacing[1]);
+  return p_base(heights, scene);  // the mean of the heights of the same cells
 }
 
 Value y_c(const CellFields& fields, const Scene& scene) {

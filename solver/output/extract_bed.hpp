@@ -15,8 +15,8 @@ namespace granvof::scalar {
 // Mean of P_c in the lowest cells under the bed's initial base, at their centres (not extrapolated to the
 // floor) [Pa]. On obstacles that stand on the floor they are those above them.
 Value p_base(const CellFields& fields, const Scene& scene);
-// Mean height of those centres [m]; of the fields only the grid counts.
-Value base_height(const CellFields& fields, const Scene& scene);
+// Mean height of those centres [m]; of the fields only the grid is read.
+Value base_height(const CellFields& grid, const Scene& scene);
 // Eq (27): mean height of the cells with f_s > 0.95 f_s,min, weighted by f_s [m]. None until a cell is that
 // dense.
 Value y_c(const CellFields& fields, const Scene& scene);
