@@ -147,7 +147,7 @@ TEST(Outlet, FillsAPoolToItsLevel) {
                  "liquid.viscosity=2", std::string("numerics.interface_scheme=") + scheme}));
     Account account(run);
     const double before = account.monitors.liquid_volume(run.now);
-    account.until(6.0);
+    account.until(9.0);
     ASSERT_FALSE(HasFatalFailure()) << scheme;
     const double after = account.monitors.liquid_volume(run.now);
     EXPECT_NEAR(after, 0.12 * 0.021, 0.02 * after) << scheme;  // it still swings
@@ -248,7 +248,7 @@ solid_fraction = 0.57
     run.until(1.0);
     ASSERT_FALSE(HasFatalFailure()) << preset;
     const double h = run.grid.h[1], u = 0.005, g = run.scene.gravity;
-    double drop = 0.0, theory = 0.0;
+    double drop = 0.0, theory = 0.0, packed = 0.0;
     int in_part = 0;
     for (int j = 1; j < 14; ++j) {
       const std::ptrdiff_t c = run.cell(1, j), below = run.cell(1, j - 1);
@@ -262,8 +262,11 @@ solid_fraction = 0.57
                  slip / (1.0 - f) * h;
       });
       // at the surface the flux, and the hindrance of second-order ones, take the packed side's fraction, the
-      // law above that of the mean: up to 1 Pa, a fortieth of the whole
-      EXPECT_NEAR(of_face, of_law, f > 0.57 ? 0.03 * of_law : 0.2 * of_law + 1.0) << preset << ", row " << j;
+      // law above that of the mean: up to a quarter of what a packed face takes (sourced 1.01 Pa,
+      // advised 1.06)
+      if (f > 0.57) packed = of_law;
+      EXPECT_NEAR(of_face, of_law, f > 0.57 ? 0.03 * of_law : 0.2 * of_law + 0.25 * packed)
+          << preset << ", row " << j;
       drop += of_face;
       theory += of_law;
       in_part += run.now.f_s[c] > 0.01 && run.now.f_s[c] < 0.56;
@@ -274,10 +277,12 @@ solid_fraction = 0.57
   }
 }
 
-// Grains that come in and go out are counted, and carry their energy.
+// Grains that come in and go out are counted, and carry their energy. (What the solve for the viscosity of
+// grains that fly leaves is 2e-8 of it.)
 TEST(Grains, ComeInAndLeave) {
-  Simulation run(channel({"walls.left.inflow_solid_fraction=0.1", "tank.gravity=0", "liquid.level=0.04",
-                          "tank.size=[0.06, 0.04]", "solid.density=1500"}));
+  Simulation run(
+      channel({"walls.left.inflow_solid_fraction=0.1", "tank.gravity=0", "liquid.level=0.04",
+               "tank.size=[0.06, 0.04]", "solid.density=1500", "model.kinetic_transport=collisional"}));
   Account account(run);
   account.until(0.2);
   const double came = 0.1 * 0.1 * 0.04 * 0.2;  // f_s u H t per depth, none of it at the outlet yet
