@@ -178,9 +178,14 @@ void add_side(const Scene& s, int index, std::vector<Motion>& all) {
     double speed =
         side.inflow.speed / narrowest(s, axis) * (rough ? between_rough_walls : between_slip_walls);
     if (s.bed && axis == 1 && spans_floor(s, s.bed->box)) speed /= 1.0 - s.bed->solid_fraction;
-    const double drop = std::max(s.tank[1] - level_of(s), 0.0);
-    const bool falls = side.inflow.liquid_share > 0.0 && index != bottom;
-    if (falls) speed = std::hypot(speed, std::min(std::sqrt(2.0 * g * drop), film_speed(s, g, drop)));
+    double ground = level_of(s);
+    if (s.bed && spans_floor(s, s.bed->box)) ground = std::max(ground, s.bed->box.upper[1]);
+    const double drop = std::max(s.tank[1] - ground, 0.0);
+    const bool grains = side.inflow.solid_fraction > 0.0;
+    if (index != bottom && (grains || side.inflow.liquid_share > 0.0)) {
+      const double fall = std::sqrt(2.0 * g * drop);
+      speed = std::hypot(speed, grains ? fall : std::min(fall, film_speed(s, g, drop)));
+    }
     all.push_back(steady(speed));
   } else if (side.kind == SideKind::outlet && !s.liquid_boxes.empty()) {
     const double head = std::max(level_of(s) - side.outflow.level, 0.0);

@@ -60,6 +60,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "[walls]\nall = \"slip\"\ntop = { inflow = 0.3 }\n"
                    "right = { outflow_pressure = 0, outflow_level = 0 }\n" +
                        water + "level = 0.1\n[time]\nend = 0.7\n"},
+        SmallScene{"grains_from_above", "size = [0.2, 1.0]\n[grid]\ndx = 0.02\n",
+                   "[walls]\nall = \"slip\"\ntop = { inflow = 0.2, inflow_solid_fraction = 0.1 }\n"
+                   "bottom = { outflow_pressure = 0 }\n" +
+                       grains + "[time]\nend = 1.5\n"},
         SmallScene{"jet_through_a_slot", "size = [0.4, 0.2]\n[grid]\ndx = 0.02\n",
                    "[obstacle]\nx0 = [0.04]\nx1 = [0.06]\ny0 = [0.04]\ny1 = [0.2]\n"
                    "[walls]\nall = \"slip\"\nleft = { inflow = 2 }\nright = { outflow_pressure = 0 }\n" +
