@@ -13,7 +13,6 @@ WIDEST = 1.5  # distance of an expected failure over what it is off beyond its t
 # Off by a step once a threshold is passed, on either side of it by chance; the row's reason says which threshold.
 THRESHOLDS = {
     "column-sourced-thick.series_difference-column-sourced.theory",
-    "dry-sourced-thick.series_difference-dry-sourced.theory",
 }
 
 
