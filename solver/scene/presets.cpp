@@ -73,6 +73,7 @@ const std::vector<Choice>& choices() {
                  "al. 2011). DEM-VOF takes the same law, and its records are of the paper's."},
       {.key = "model.frictional_restitution",
        .advised = true,
+       .sourced = true,
        .reason =
            "Friction takes from collisions too (Chialvo and Sundaresan 2013): for grains in air; under water "
            "collisions are damped, and it does nothing."},
