@@ -20,9 +20,7 @@ constexpr double largest_courant = 0.25;
 constexpr double share_that_counts = 1e-6;
 
 // Velocities along a line of faces, from two before the middle one to two beyond it: what slopes are made of.
-struct Line {
-  double before2, before, here, after, after2;
-};
+using Line = InnerWalls::Line;
 
 // The two neighbours of a face along it: their mass, and the mass that comes from their side, negative what
 // leaves, per volume and time.
@@ -65,9 +63,9 @@ struct Face {
     }
   }
   void pass(Passed& sum, double old, const Neighbours& n, const Line& v) const {
-    const double back = v.before - v.here, ahead = v.after - v.here;
-    side(sum, old, n.mass_before, n.from_before, n.jump_before, back, -ahead, v.before2 - v.before);
-    side(sum, old, n.mass_after, n.from_after, n.jump_after, ahead, -back, v.after2 - v.after);
+    const double back = v[1] - v[2], ahead = v[3] - v[2];
+    side(sum, old, n.mass_before, n.from_before, n.jump_before, back, -ahead, v[0] - v[1]);
+    side(sum, old, n.mass_after, n.from_after, n.jump_after, ahead, -back, v[4] - v[3]);
   }
   // Its acceleration; `taken` gets what it loses beside central differences.
   double acceleration(const Passed& sum, double old, double v, double& taken) const {
@@ -129,11 +127,7 @@ double convect(const Field& mass, double least, const Grid& grid, const InnerWal
     if (!faces.contains(place.place)) continue;
     convect_face(place.at, plain, before);
     out[place.at] = convect_face(
-        place.at,
-        [&](std::ptrdiff_t c, std::ptrdiff_t, int e) {
-          const InnerWalls::Line of = walls.faces_along(v, c, d, e);
-          return Line{of[0], of[1], of[2], of[3], of[4]};
-        },
+        place.at, [&](std::ptrdiff_t c, std::ptrdiff_t, int e) { return walls.faces_along(v, c, d, e); },
         seen);
   }
   return sums.values[0] + of_all(grid.cells, seen - before);
