@@ -67,9 +67,7 @@ class Columns {
     bool settled = false;
   };
 
-  double density(std::ptrdiff_t c) const {
-    return mixture(s_.alpha[c], scene_.liquid.density, scene_.gas.density);
-  }
+  double density(std::ptrdiff_t c) const { return fluid_density(scene_, s_, c); }
 
   double top(int i, int k) const { return tops_[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)]; }
 
@@ -200,10 +198,6 @@ class Lack {
  private:
   static constexpr int most_iterations = 200;
 
-  double density(const State& s, std::ptrdiff_t c) const {
-    return mixture(s.alpha[c], scene_.liquid.density, scene_.gas.density);
-  }
-
   void set_faces(const Field& open, const State& s, int d) {
     const double g = d == vertical ? -normal_gravity(scene_) : confined_gravity(scene_)[d];
     const double inv_h2 = 1.0 / (grid_.h[d] * grid_.h[d]);
@@ -212,10 +206,13 @@ class Lack {
       const std::ptrdiff_t c = grid_.cells.index(at), b = c - stride;
       if (open[c] == 0.0) return;
       const double f_c = 1.0 - 0.5 * (s.f_s[b] + s.f_s[c]),
-                   mass = 0.5 * ((1.0 - s.f_s[b]) * density(s, b) + (1.0 - s.f_s[c]) * density(s, c));
+                   mass = 0.5 * ((1.0 - s.f_s[b]) * fluid_density(scene_, s, b) +
+                                 (1.0 - s.f_s[c]) * fluid_density(scene_, s, c));
       response_[d][c] = inv_h2 * f_c * f_c / mass;
       if (grid_.cells.periodic[d] && at[d] == 0) return;  // no weight is carried through joined ends
-      step_[d][c] = -density_lack(s.f_s[b], density(s, b), s.f_s[c], density(s, c)) * g * grid_.h[d];
+      step_[d][c] =
+          -density_lack(s.f_s[b], fluid_density(scene_, s, b), s.f_s[c], fluid_density(scene_, s, c)) * g *
+          grid_.h[d];
       any_ = any_ || step_[d][c] != 0.0;
     });
   }
@@ -229,8 +226,8 @@ class Lack {
       for_each_place(grid_.side_cells(d, upper), [&](const std::array<int, 3>& at) {
         const std::ptrdiff_t c = grid_.cells.index(at);
         if (solid != nullptr && solid[c] != 0) return;
-        const double f_c = 1.0 - s.f_s[c], inside = f_c * density(s, c),
-                     outside = (1.0 - s.f_s[c + beyond]) * density(s, c + beyond),
+        const double f_c = 1.0 - s.f_s[c], inside = f_c * fluid_density(scene_, s, c),
+                     outside = (1.0 - s.f_s[c + beyond]) * fluid_density(scene_, s, c + beyond),
                      mass = passing_side_mass(inside, outside);
         const double response = 2.0 * inv_h2 * f_c * f_c / mass;
         mass_[c] += response;

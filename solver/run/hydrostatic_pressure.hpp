@@ -1,9 +1,15 @@
 // The fluid's pressure at the start: the one at which its discrete momentum balance is at rest.
 #pragma once
 
+#include "solver/operators/mixture.hpp"
 #include "solver/state/state.hpp"
 
 namespace granvof {
+
+// Of the fluid in a cell [kg/m3].
+inline double fluid_density(const Scene& scene, const State& s, std::ptrdiff_t cell) {
+  return mixture(s.alpha[cell], scene.liquid.density, scene.gas.density);
+}
 
 // What the density that the fluid of a face moves, its f_c rho_c over its f_c by FaceInertia, lacks of the
 // mean density of its two cells [kg/m3]: the denser fluid counts less where grains leave it less room.

@@ -21,19 +21,16 @@ void settle_column(const Grid& grid, const Scene& scene, const Field& lack, int 
   const int rows = l.n[1];
   const auto weight = [&](int j) {  // submerged, per area [Pa]
     const std::ptrdiff_t c = l.index(i, j, k);
-    return (scene.solid.density - mixture(s.alpha[c], scene.liquid.density, scene.gas.density)) * s.f_s[c] *
-           normal_gravity(scene) * grid.h[1];
+    return (scene.solid.density - fluid_density(scene, s, c)) * s.f_s[c] * normal_gravity(scene) * grid.h[1];
   };
   // What grains bear beside that on the face above a cell, where its fluid weighs less than the mean of both
   // cells' [Pa]: all of it that is not in P_c.
   const auto more_above = [&](int j) {
     if (lack.empty() || j == rows - 1) return 0.0;
     const std::ptrdiff_t c = l.index(i, j, k), above = l.index(i, j + 1, k);
-    const auto density = [&](std::ptrdiff_t at) {
-      return mixture(s.alpha[at], scene.liquid.density, scene.gas.density);
-    };
+    const double density = fluid_density(scene, s, c), density_above = fluid_density(scene, s, above);
     const double f_s = 0.5 * (s.f_s[c] + s.f_s[above]);
-    return (1.0 - f_s) * density_lack(s.f_s[c], density(c), s.f_s[above], density(above)) *
+    return (1.0 - f_s) * density_lack(s.f_s[c], density, s.f_s[above], density_above) *
                normal_gravity(scene) * grid.h[1] -
            f_s * (lack[c] - lack[above]);
   };

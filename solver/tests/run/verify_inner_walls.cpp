@@ -3,12 +3,15 @@
 #include <cstdio>
 
 #include "solver/scene/scales.hpp"
+#include "solver/tests/run/override_sets.hpp"
 #include "solver/tests/run/small_runs.hpp"
 
 namespace granvof {
 namespace {
 
+using test::joined;
 using test::name_of;
+using test::Set;
 using test::Simulation;
 
 constexpr int steps = 12;
@@ -94,14 +97,6 @@ TEST_P(InnerWall, IsAWallOfTheTank) {
   }
   std::printf("  largest difference %.2g\n", furthest);
   EXPECT_GT(small.fastest(small.now.u_c), 1e-3);
-}
-
-using Set = std::vector<std::string>;
-
-Set joined(std::initializer_list<Set> parts) {
-  Set all;
-  for (const Set& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
 }
 
 const Set open_top{"walls.all=no-slip", "walls.top=open"};

@@ -2,11 +2,14 @@
 #include <cmath>
 
 #include "solver/operators/mixture.hpp"
+#include "solver/tests/run/override_sets.hpp"
 #include "solver/tests/run/small_runs.hpp"
 
 namespace granvof {
 namespace {
 
+using test::joined;
+using test::Set;
 using test::Simulation;
 
 // The uppermost cells of a part: columns from `begin` to before `end`, in a row and all along z.
@@ -26,8 +29,6 @@ double level_of(const Simulation& run, const Ceiling& ceiling) {
     }
   return sum / ((ceiling.end - ceiling.begin) * l.n[2]);
 }
-
-using Set = std::vector<std::string>;
 
 struct Parts {
   std::string name;
@@ -92,12 +93,6 @@ const Set chamber{"obstacle.x0=[0.02, 0.05, 0.025, 0.025]",
 const Set deep{"scene.dimensions=3", "tank.size=[0.08, 0.08, 0.02]"};
 // Shut all along.
 const Set gate{"bed.x=0", "gate.position=0.04", "gate.speed=1e-6", "time.hold=0.05"};
-
-Set joined(std::initializer_list<Set> parts) {
-  Set all;
-  for (const Set& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
 
 INSTANTIATE_TEST_SUITE_P(
     Tanks, SealedParts,

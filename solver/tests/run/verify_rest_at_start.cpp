@@ -1,21 +1,16 @@
 // What can be at rest is at rest from the first step on, wherever level and bed end within their cells.
 #include <cmath>
 
+#include "solver/tests/run/override_sets.hpp"
 #include "solver/tests/run/small_runs.hpp"
 
 namespace granvof {
 namespace {
 
+using test::joined;
+using test::Set;
 using test::Simulation;
 using test::Variant;
-
-using Set = std::vector<std::string>;
-
-Set joined(std::initializer_list<Set> parts) {
-  Set all;
-  for (const Set& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
 
 // A bed from side to side that bears itself, in a tank of 8 x 16 cells of 5 mm.
 Scene tank(const Set& overrides) {
