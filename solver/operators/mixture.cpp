@@ -15,8 +15,7 @@ void FaceInertia::update(const Grid& grid, const Scene& scene, const Field& f_s_
       const double fs = 0.5 * (f[c] + f[c - s]);
       face[c] = fs;
       m_s[c] = fs * rho_s;
-      m_c[c] = 0.5 * ((1.0 - f[c]) * mixture(a[c], rho_l, rho_g) +
-                      (1.0 - f[c - s]) * mixture(a[c - s], rho_l, rho_g));
+      m_c[c] = face_mass(f[c - s], a[c - s], f[c], a[c], rho_l, rho_g);
     });
   }
   grid.for_each_passing_side([&](int d, bool upper) {

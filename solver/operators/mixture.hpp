@@ -24,6 +24,14 @@ inline double mixture(double alpha, double liquid, double gas) {
   return alpha * liquid + (1.0 - alpha) * gas;
 }
 
+// f_c rho_c [kg/m3] that the velocity on a face between two cells moves: their mean room times their mean
+// density, so that a step of P_c at rest does not depend on the grains in them. The mean of their f_c rho_c
+// does, and where a level of water cuts a slope of grains no pressure would be at rest.
+inline double face_mass(double f_s_a, double alpha_a, double f_s_b, double alpha_b, double liquid,
+                        double gas) {
+  return (1.0 - 0.5 * (f_s_a + f_s_b)) * mixture(0.5 * (alpha_a + alpha_b), liquid, gas);
+}
+
 // f_c rho_c [kg/m3] that the velocity on a side moves which passes the fluid: that of the half cell inside,
 // so that what is beyond adds no weight; the mean where what waits beyond is heavier, which else would come
 // in at the speed that its pressure gives to gas.
@@ -31,8 +39,8 @@ inline double passing_side_mass(double inside, double beyond) {
   return 0.5 * (inside + std::max(inside, beyond));
 }
 
-// Mass per volume on the faces: f_s rho_s and f_c rho_c [kg/m3], arithmetic means of the two cells (upwind
-// values as inertia blow up, see the numerics notes); on sides that pass the fluid those of the cell inside.
+// Mass per volume on the faces: f_s rho_s [kg/m3] by the mean of the two cells (upwind values as inertia blow
+// up) and f_c rho_c by face_mass(); on sides that pass the fluid those of the cell inside.
 // Values reach one ghost layer; two of f_s and alpha must be filled.
 struct FaceInertia {
   FaceField f_s;    // solid fraction on faces [-]

@@ -16,7 +16,8 @@ MomentumPredictor::MomentumPredictor(const Grid& grid, const Scene& scene, const
       limited_(closures::is_of_second_order(scene.numerics.transport_scheme)),
       solid_(grid),
       fluid_(grid),
-      convective_(grid) {
+      convective_(grid),
+      surface_weight_(grid, scene, boundary) {
   // a fluid of one density fills no face
   if (scene.numerics.fluid_convection == Convection::mass_consistent && has_liquid(scene))
     fluid_mass_ = Field(grid);
@@ -70,6 +71,7 @@ void MomentumPredictor::update(double dt, const State& now, const FaceInertia& i
                                const BodyAcceleration* extra) {
   upwind_power_ = viscous_power_ = 0.0;
   set_fluid_mass(now);
+  surface_weight_.update(now.alpha);
   for (int d = 0; d < grid_.dim; ++d) {
     const std::ptrdiff_t s = grid_.stride(d);
     const double gravity = gravity_of(scene_)[d], inv_h = 1.0 / grid_.h[d];
@@ -90,10 +92,18 @@ void MomentumPredictor::update(double dt, const State& now, const FaceInertia& i
     for_each(grid_.cells, solid, [=](std::ptrdiff_t c) {
       s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity - on_solid));
     });
+    weigh_surface(dt, inertia, aperture, d);
     if (extra != nullptr) add(dt, aperture, *extra, d);
     boundary_.exchange(fluid_[d]);
     boundary_.exchange(solid_[d]);
   }
+}
+
+void MomentumPredictor::weigh_surface(double dt, const FaceInertia& inertia, const Aperture& aperture,
+                                      int d) {
+  const Field &open = aperture[d], &f_s = inertia.f_s[d], &mass = inertia.fluid[d];
+  for (const auto& [c, force] : surface_weight_[d])
+    fluid_[d][c] += dt * open[c] * (1.0 - f_s[c]) * force / mass[c];
 }
 
 void MomentumPredictor::add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "solver/operators/aperture.hpp"
+#include "solver/operators/surface_weight.hpp"
 #include "solver/operators/viscosity.hpp"
 
 namespace granvof {
@@ -33,11 +34,13 @@ class MomentumPredictor {
   // Power that the upwinding of both momenta takes, and power of the explicit viscous force [W].
   double upwind_power() const { return upwind_power_; }
   double viscous_power() const { return viscous_power_; }
+  const SurfaceWeight& surface_weight() const { return surface_weight_; }
 
  private:
   void convect_fluid(double dt, const State& now, const FaceInertia& inertia, int d);
   void convect_solid(double dt, const State& now, const FaceInertia& inertia, int d);
   void set_fluid_mass(const State& now);
+  void weigh_surface(double dt, const FaceInertia& inertia, const Aperture& aperture, int d);
   void add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d);
 
   const Grid& grid_;
@@ -45,6 +48,7 @@ class MomentumPredictor {
   const Boundary& boundary_;
   bool limited_;
   FaceField solid_, fluid_, convective_;
+  SurfaceWeight surface_weight_;
   Field fluid_mass_;  // f_c rho_c of cells [kg/m3], where momentum goes with it
   double upwind_power_ = 0.0, viscous_power_ = 0.0;
 };

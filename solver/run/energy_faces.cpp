@@ -26,12 +26,13 @@ class Faces {
     for (int d = 0; d < grid_.dim; ++d) {
       add_solid(d);
       add_fluid(d, grid_.inner_faces(d),
-                {.weight = 1.0, .inside = 0, .beyond = -grid_.stride(d), .least = 0.0});
+                {.weight = 1.0, .inside = 0, .beyond = -grid_.stride(d), .of_side = false});
+      add_surface_weight(d);
     }
     grid_.for_each_passing_side([&](int d, bool upper) {
       const std::ptrdiff_t s = grid_.stride(d);
       add_fluid(d, grid_.side_faces(d, upper),
-                {.weight = 0.5, .inside = upper ? -s : 0, .beyond = upper ? 0 : -s, .least = 1.0});
+                {.weight = 0.5, .inside = upper ? -s : 0, .beyond = upper ? 0 : -s, .of_side = true});
     });
     grid_.for_each_open_side([&](int d, bool upper) {
       add_side(d, upper);
@@ -42,14 +43,14 @@ class Faces {
 
  private:
   void add_solid(int d);
-  // What a face's velocity moves: a cell's volume times the weight, filled as its two cells are; the one
-  // beyond counts for no less than `least` of the one inside (passing_side_mass).
+  // What a face's velocity moves: a cell's volume times the weight, filled as its two cells are.
   struct Moved {
     double weight;
     std::ptrdiff_t inside, beyond;
-    double least;
+    bool of_side;
   };
   void add_fluid(int d, const Range& faces, const Moved& moved);
+  void add_surface_weight(int d);
   void add_side(int d, bool upper);
   void add_potential_out(int d, bool upper);
   void add_half_cells(int d, bool upper);
@@ -105,7 +106,7 @@ void Faces::add_solid(int d) {
 
 void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
   const std::ptrdiff_t s = grid_.stride(d), inside = moved.inside, beyond = moved.beyond;
-  const double least = moved.least;
+  const bool of_side = moved.of_side;
   const double *m = trace_.inertia.fluid[d].data(), *f = trace_.inertia.f_s[d].data(),
                *star = trace_.predictor.fluid()[d].data(),
                *convective = trace_.predictor.convective_fluid()[d].data();
@@ -125,9 +126,12 @@ void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
       const double v = v1[c], dv = v - v0[c], mv = m[c] * v, f_c = 1.0 - f[c];
       step += m[c] * dv * dv;
       before += mv * v;
-      const double own = (1.0 - f1[c + inside]) * mixture(a1[c + inside], rho_l, rho_g);
-      const double others = (1.0 - f1[c + beyond]) * mixture(a1[c + beyond], rho_l, rho_g);
-      after += (own + std::max(least * own, others)) * v * v;
+      const double f_in = f1[c + inside], f_out = f1[c + beyond], a_in = a1[c + inside],
+                   a_out = a1[c + beyond];
+      const double mass = of_side ? passing_side_mass((1.0 - f_in) * mixture(a_in, rho_l, rho_g),
+                                                      (1.0 - f_out) * mixture(a_out, rho_l, rho_g))
+                                  : face_mass(f_in, a_in, f_out, a_out, rho_l, rho_g);
+      after += mass * v * v;
       predicted += mv * (star[c] - v0[c]) + v * f_c * dt_h * (p0[c] - p0[c - s]);
       convected += mv * convective[c] * dt;
       momentum += mv;
@@ -142,12 +146,22 @@ void Faces::add_fluid(int d, const Range& faces, const Moved& moved) {
   const double gravity = dt_ * (g_[d] * momentum - outside_[d] * passed);  // and the pressure outside
   // Further: fluid_transport is numerical_fluid, viscous what numerical_viscosity is taken from.
   work_.step += 0.5 * volume * step;
-  work_.kinetic += 0.25 * volume * after;
-  work_.moved += volume * (0.25 * after - 0.5 * before);
+  work_.kinetic += 0.5 * volume * after;
+  work_.moved += 0.5 * volume * (after - before);
   work_.convected += volume * convected;
   work_.viscous += volume * (predicted - convected - gravity);
   work_.fluid_transport += volume * (dt_ * confined_[d] * lifted - dt_h * pressed);
   if (grid_.cells.periodic[d]) work_.driving += volume * gravity;
+}
+
+// The predictor adds it as a force of its own; against the fluxes it counts with gravity.
+void Faces::add_surface_weight(int d) {
+  const Field &f = trace_.inertia.f_s[d], &v = next_.u_c[d];
+  double power = 0.0;
+  for (const auto& [c, force] : trace_.predictor.surface_weight()[d]) power += (1.0 - f[c]) * force * v[c];
+  const double work = grid_.cell_volume * dt_ * of_all(grid_.cells, power);
+  work_.viscous -= work;
+  work_.fluid_transport -= work;
 }
 
 // Mass that leaves takes its height along.

@@ -9,6 +9,7 @@
 #include "solver/operators/aperture.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/operators/pressure_level.hpp"
+#include "solver/operators/surface_weight.hpp"
 #include "solver/scene/gravity.hpp"
 
 namespace granvof {
@@ -154,12 +155,21 @@ class Columns {
   std::size_t done_ = 0;
 };
 
-// What the weight on faces lacks of that by the mean density, as pressure: where columns differ in it there
+// What the weight on faces has beside that by the mean density, as pressure: where columns differ in it there
 // is no rest, and it is the pressure that leaves a flow without divergence.
-class Lack {
+class BesideTheMean {
  public:
-  Lack(const Grid& grid, const Scene& scene, const Aperture& aperture, const State& s)
-      : grid_(grid), scene_(scene), step_(grid), response_(grid), mass_(grid), rhs_(grid), lack_(grid) {
+  BesideTheMean(const Grid& grid, const Scene& scene, const Boundary& boundary, const Aperture& aperture,
+                const State& s)
+      : grid_(grid),
+        scene_(scene),
+        surface_weight_(grid, scene, boundary),
+        step_(grid),
+        response_(grid),
+        mass_(grid),
+        rhs_(grid),
+        beside_(grid) {
+    surface_weight_.update(s.alpha);
     for (int d = 0; d < grid.dim; ++d) set_faces(aperture[d], s, d);
     set_sides(s);
   }
@@ -169,7 +179,6 @@ class Lack {
     const Layout& l = grid_.cells;
     const std::ptrdiff_t s = grid_.stride(vertical);
     linear::Faces faces;
-    double largest = 0.0;
     for (int d = 0; d < grid_.dim; ++d) {
       const Field &step = step_[d], &response = response_[d];
       faces.lower[d] = response.data();
@@ -177,7 +186,7 @@ class Lack {
         const std::ptrdiff_t c = l.index(at);
         rhs_[c] += response[c] * step[c];
         rhs_[c - grid_.stride(d)] -= response[c] * step[c];
-        largest = std::max(largest, std::fabs(response[c] * step[c]));
+        largest_ = std::max(largest_, std::fabs(response[c] * step[c]));
       });
     }
     // A guess by columns, which is all where they agree.
@@ -187,34 +196,33 @@ class Lack {
       row.upper[vertical] = j + 1;
       for_each_place(row, [&](const std::array<int, 3>& at) {
         const std::ptrdiff_t c = l.index(at);
-        lack_[c] = lack_[c + s] - step_[vertical][c + s];
+        beside_[c] = beside_[c + s] - step_[vertical][c + s];
       });
     }
     linear::ScalarSolver(l, grid_.h)
-        .solve(faces, mass_.data(), rhs_.data(), lack_.data(), {rounding * largest, 0.0, most_iterations});
-    return std::move(lack_);
+        .solve(faces, mass_.data(), rhs_.data(), beside_.data(), {rounding * largest_, 0.0, most_iterations});
+    return std::move(beside_);
   }
 
  private:
   static constexpr int most_iterations = 200;
 
   void set_faces(const Field& open, const State& s, int d) {
-    const double g = d == vertical ? -normal_gravity(scene_) : confined_gravity(scene_)[d];
     const double inv_h2 = 1.0 / (grid_.h[d] * grid_.h[d]);
     const std::ptrdiff_t stride = grid_.stride(d);
     for_each_place(grid_.inner_faces(d), [&](const std::array<int, 3>& at) {
       const std::ptrdiff_t c = grid_.cells.index(at), b = c - stride;
       if (open[c] == 0.0) return;
       const double f_c = 1.0 - 0.5 * (s.f_s[b] + s.f_s[c]),
-                   mass = 0.5 * ((1.0 - s.f_s[b]) * fluid_density(scene_, s, b) +
-                                 (1.0 - s.f_s[c]) * fluid_density(scene_, s, c));
+                   mass = face_mass(s.f_s[b], s.alpha[b], s.f_s[c], s.alpha[c], scene_.liquid.density,
+                                    scene_.gas.density);
       response_[d][c] = inv_h2 * f_c * f_c / mass;
-      if (grid_.cells.periodic[d] && at[d] == 0) return;  // no weight is carried through joined ends
-      step_[d][c] =
-          -density_lack(s.f_s[b], fluid_density(scene_, s, b), s.f_s[c], fluid_density(scene_, s, c)) * g *
-          grid_.h[d];
-      any_ = any_ || step_[d][c] != 0.0;
     });
+    for (const auto& [c, force] : surface_weight_[d]) {
+      if (open[c] == 0.0) continue;
+      step_[d][c] = force * grid_.h[d];
+      any_ = true;
+    }
   }
 
   // What waits beyond an open top weighs on its faces where it is heavier.
@@ -232,35 +240,38 @@ class Lack {
         const double response = 2.0 * inv_h2 * f_c * f_c / mass;
         mass_[c] += response;
         if (d != vertical || !upper) return;
-        lack_[c] = 0.5 * (mass - inside) / f_c * normal_gravity(scene_) * grid_.h[d];
-        rhs_[c] += response * lack_[c];
-        any_ = any_ || lack_[c] != 0.0;
+        beside_[c] = 0.5 * (mass - inside) / f_c * normal_gravity(scene_) * grid_.h[d];
+        rhs_[c] += response * beside_[c];
+        largest_ = std::max(largest_, std::fabs(response * beside_[c]));
+        any_ = any_ || beside_[c] != 0.0;
       });
     });
   }
 
   const Grid& grid_;
   const Scene& scene_;
+  SurfaceWeight surface_weight_;
   FaceField step_;      // of the pressure across a face, from below to above [Pa]
   FaceField response_;  // of the fluid's flux to a step
-  Field mass_, rhs_, lack_;
+  Field mass_, rhs_, beside_;
+  double largest_ = 0.0;  // of what rhs_ is made of
   bool any_ = false;
 };
 
 }  // namespace
 
-Field set_hydrostatic_pressure(const Grid& grid, const Scene& scene, State& s) {
+void set_hydrostatic_pressure(const Grid& grid, const Scene& scene, const Boundary& boundary, State& s) {
   const Aperture aperture(grid, scene);
   Columns columns(grid, scene, aperture, s);
   columns.fill();
   // Until here as if the tank were empty.
   for (const std::ptrdiff_t c : grid.obstacles.cells()) s.f_s[c] = s.alpha[c] = s.phi[c] = s.p_c[c] = 0.0;
   columns.join();
-  Field lack = Lack(grid, scene, aperture, s).pressure();
-  if (!lack.empty())
+  const Field beside = BesideTheMean(grid, scene, boundary, aperture, s).pressure();
+  if (!beside.empty())
     for_each_place(grid.all_cells(), [&](const std::array<int, 3>& at) {
       const std::ptrdiff_t c = grid.cells.index(at);
-      s.p_c[c] += lack[c];
+      s.p_c[c] += beside[c];
     });
   PressureLevel level(grid, scene);
   if (level.may_be_parted()) {
@@ -268,9 +279,8 @@ Field set_hydrostatic_pressure(const Grid& grid, const Scene& scene, State& s) {
     tree.grow(aperture);
     level.find_parts(tree);
   }
-  if (level.may_be_parted() || !lack.empty()) level.set(s.alpha, s.p_c);
+  if (level.may_be_parted() || !beside.empty()) level.set(s.alpha, s.p_c);
   for (const std::ptrdiff_t c : grid.obstacles.cells()) s.p_c[c] = 0.0;
-  return lack;
 }
 
 }  // namespace granvof

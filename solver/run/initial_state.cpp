@@ -16,23 +16,20 @@ namespace {
 // A bed whose packing is a matter of its history is at rest at whatever solid fraction it has: P_s carries
 // the submerged weight of the grains above, and f_p follows from (13). What no floor or lid holds hangs in
 // free fall, or floats: of its load only what bends it is borne, none where all grains weigh alike.
-void settle_column(const Grid& grid, const Scene& scene, const Field& lack, int i, int k, State& s) {
+void settle_column(const Grid& grid, const Scene& scene, int i, int k, State& s) {
   const Layout& l = grid.cells;
   const int rows = l.n[1];
   const auto weight = [&](int j) {  // submerged, per area [Pa]
     const std::ptrdiff_t c = l.index(i, j, k);
     return (scene.solid.density - fluid_density(scene, s, c)) * s.f_s[c] * normal_gravity(scene) * grid.h[1];
   };
-  // What grains bear beside that on the face above a cell, where its fluid weighs less than the mean of both
-  // cells' [Pa]: all of it that is not in P_c.
+  // What grains bear on the face above a cell beside half the weight of both its cells [Pa].
   const auto more_above = [&](int j) {
-    if (lack.empty() || j == rows - 1) return 0.0;
+    if (j == rows - 1) return 0.0;
     const std::ptrdiff_t c = l.index(i, j, k), above = l.index(i, j + 1, k);
-    const double density = fluid_density(scene, s, c), density_above = fluid_density(scene, s, above);
     const double f_s = 0.5 * (s.f_s[c] + s.f_s[above]);
-    return (1.0 - f_s) * density_lack(s.f_s[c], density, s.f_s[above], density_above) *
-               normal_gravity(scene) * grid.h[1] -
-           f_s * (lack[c] - lack[above]);
+    return f_s * (scene.solid.density * normal_gravity(scene) * grid.h[1] - (s.p_c[c] - s.p_c[above])) -
+           0.5 * (weight(j) + weight(j + 1));
   };
   const auto has_grains = [&](int j) { return s.f_s[l.index(i, j, k)] >= least_solid_fraction; };
   const char* solid = grid.obstacles.solid();
@@ -71,9 +68,9 @@ void settle_column(const Grid& grid, const Scene& scene, const Field& lack, int 
   }
 }
 
-void settle(const Grid& grid, const Scene& scene, const Field& lack, State& s) {
+void settle(const Grid& grid, const Scene& scene, State& s) {
   for (int k = 0; k < grid.cells.n[2]; ++k)
-    for (int i = 0; i < grid.cells.n[0]; ++i) settle_column(grid, scene, lack, i, k, s);
+    for (int i = 0; i < grid.cells.n[0]; ++i) settle_column(grid, scene, i, k, s);
 }
 
 }  // namespace
@@ -102,8 +99,8 @@ State initial_state(const Grid& grid, const Scene& scene, const Boundary& bounda
   });
   boundary.fill_solid_fraction(s.f_s);
   boundary.fill_liquid_share(s.alpha);
-  const Field lack = set_hydrostatic_pressure(grid, scene, s);
-  if (scene.model.carries_packing()) settle(grid, scene, lack, s);
+  set_hydrostatic_pressure(grid, scene, boundary, s);
+  if (scene.model.carries_packing()) settle(grid, scene, s);
   s.fill_ghosts(boundary);
   s.energy = EnergyBudget(grid, scene, boundary).stored(s);
   return s;

@@ -15,21 +15,21 @@ std::array<Tank::Function, 3> constant(double a, double b, double c) {
   return {[=](const Vec3&) { return a; }, [=](const Vec3&) { return b; }, [=](const Vec3&) { return c; }};
 }
 
-TEST(FaceInertia, ArithmeticMeanOfTheTwoCells) {
+TEST(FaceInertia, MeanRoomTimesMeanDensityOfTheTwoCells) {
   for (int dim : {2, 3}) {
     const Tank s(unit_scene(dim, 4));
     const Field f_s = s.cells([](const Vec3& x) { return x[0] < 0.5 ? 0.6 : 0.2; });
     const Field alpha = s.cells([](const Vec3& x) { return x[0] < 0.5 ? 1.0 : 0.25; });
     FaceInertia inertia(s.grid);
     inertia.update(s.grid, s.scene, f_s, alpha);
-    const double left = 0.4 * 1000.0, right = 0.8 * (0.25 * 1000.0 + 0.75 * 1.0);
+    const double left = 1000.0, right = 0.25 * 1000.0 + 0.75 * 1.0;
     for (int d = 0; d < dim; ++d)
       s.each(s.grid.cells_and_ghosts(1), [&](int i, int, int, std::ptrdiff_t c) {
         const double share = d == 0 && i == 2 ? 0.5 : (i < 2 ? 1.0 : 0.0);  // of the left side
         const double f = share * 0.6 + (1.0 - share) * 0.2;
         EXPECT_NEAR(inertia.f_s[d][c], f, 1e-15);
         EXPECT_NEAR(inertia.solid[d][c], 2500.0 * f, 1e-10);
-        EXPECT_NEAR(inertia.fluid[d][c], share * left + (1.0 - share) * right, 1e-10);
+        EXPECT_NEAR(inertia.fluid[d][c], (1.0 - f) * (share * left + (1.0 - share) * right), 1e-10);
       });
   }
 }

@@ -39,24 +39,6 @@ struct Column {
   State state;
 };
 
-// Of the density that the mass of a face is over its fluid's room; none, to the bit, where one of the two is
-// alike.
-TEST(DensityLack, IsThatOfTheFacesMass) {
-  for (const double f : {0.0, 0.2, 0.6})
-    for (const double rho : {1.0, 250.75, 1000.0}) {
-      Tank tank(box_scene(2, {2, 2, 1}, {1.0, 1.0, 1.0}));
-      const Field f_s_of = tank.cells([=](const Vec3&x) { return x[0] < 0.5 ? f : 0.3; }),
-                  alpha = tank.cells([=](const Vec3&x) { return x[0] < 0.5 ? (rho - 1.0) / 999.0 : 1.0; });
-      FaceInertia inertia(tank.grid);
-      inertia.update(tank.grid, tank.scene, f_s_of, alpha);
-      const std::ptrdiff_t face = tank.grid.cells.index(1, 0, 0);
-      EXPECT_NEAR(density_lack(f, rho, 0.3, 1000.0),
-                  0.5 * (rho + 1000.0) - inertia.fluid[0][face] / (1.0 - inertia.f_s[0][face]), 1e-9);
-      EXPECT_EQ(density_lack(f, rho, f, 1000.0), 0.0);
-      EXPECT_EQ(density_lack(f, rho, 0.3, rho), 0.0);
-    }
-}
-
 const double row_weight = f_s * 1500.0 * 9.81 * h;  // of grains of 2500 kg/m3 under water [Pa]
 
 TEST(InitialState, ABedOnTheFloorBearsItsWeight) {

@@ -131,6 +131,27 @@ TEST(PressureLevel, NoSuctionIsLeftBySettledGrains) {
   EXPECT_NEAR(mean_pressure(run).base, water, 0.02 * grains);
 }
 
+// A slope at rest that the level cuts: beside it no pressure was at rest, and water stirred at a tenth of a
+// metre per second for good.
+TEST(Slope, ThatTheLevelCutsIsAtRest) {
+  for (const char* level : {"0.02", "0.022", "0.0235"}) {
+    Simulation run(test::small_tank("slope", "size = [0.15, 0.05]", 0.02, R"([walls]
+all = "no-slip"
+top = "open"
+[bed]
+length = 0.1
+height = 0.03
+slope = 18
+solid_fraction = 0.6
+)",
+                                    {std::string("liquid.level=") + level}));
+    run.until(2.0);
+    ASSERT_FALSE(HasFatalFailure());
+    std::printf("  %.2g and %.2g m/s\n", run.fastest(run.now.u_c), run.fastest(run.now.u_s));
+    EXPECT_LT(run.fastest(run.now.u_c), 0.02 * std::sqrt(9.81 * 0.02)) << level;
+  }
+}
+
 // Under an open top the fluid carries the weight of what fills the cells up to it, and no more or less: a
 // tank full to the brim, one that runs over, one whose surface lies inside the last row.
 class OpenTop : public ::testing::TestWithParam<Variant> {};
