@@ -58,11 +58,14 @@ class Friction {
   // many steps.
   bool slips_otherwise(const State& next) const;
 
-  // Of what friction dissipates at u_s of `next`, the share [-] by which the viscosities of
-  // the last solve, those of u_strain, miss it. A bed that begins to yield is held by those of its rest: its
-  // speed grows by the ratio of what drives to what holds in each solve, and the longer the step, the later
-  // it flows.
-  double yields_otherwise(const Rheology& rheology, const State& next);
+  // What the viscosities of the last solve, those of u_strain, miss at u_s of `next`. A bed that begins to
+  // yield is held by those of its rest: its speed grows by the ratio of what drives to what holds in each
+  // solve, and the longer the step, the later it flows.
+  struct Missed {
+    double share = 0.0;  // of what friction dissipates [-]
+    double held = 0.0;   // power that it takes beyond what its law would, over cells [W]
+  };
+  Missed yields_otherwise(const Rheology& rheology, const State& next);
 
   // Power [W] of the stress of the last solve, at the velocity u_strain of `next` that it was solved
   // for;

@@ -10,8 +10,8 @@
 namespace granvof {
 
 // By the shape of (17) alone: of the coefficient's own dependence on the rate nothing is asked.
-double Friction::yields_otherwise(const Rheology& rheology, const State& next) {
-  if (is_empty(box_) || !scene_.model.contact_friction) return 0.0;
+Friction::Missed Friction::yields_otherwise(const Rheology& rheology, const State& next) {
+  if (is_empty(box_) || !scene_.model.contact_friction) return {};
   correction_ =
       next.u_s;  // not filled itself: what leaves through a side does so at the speed of the old level
   boundary_.fill_velocity(correction_, Phase::solid);
@@ -29,7 +29,8 @@ double Friction::yields_otherwise(const Rheology& rheology, const State& next) {
   const double otherwise = sum_over(grid_.cells, cells, [=](std::ptrdiff_t c) {
     return spent(c) * std::fabs(1.0 - shape(is[c]) / shape(was[c]));
   });
-  return by_law > 0.0 ? otherwise / by_law : 0.0;
+  const double spent_in_all = sum_over(grid_.cells, cells, spent);
+  return {by_law > 0.0 ? otherwise / by_law : 0.0, (spent_in_all - by_law) * grid_.cell_volume};
 }
 
 Friction::Power Friction::power(const FaceField& mass, const State& next, Field& kinetic_power) {

@@ -27,6 +27,7 @@ class SolidMomentum {
   }
 
  private:
+  double kinetic_energy(const FaceInertia& inertia, const State& next) const;  // of the grains [J]
   void set_balance(double dt, const State& now, const MomentumPredictor& predicted,
                    const FaceInertia& inertia, const InterphaseDrag& drag, const Aperture& aperture,
                    State& next);

@@ -219,7 +219,8 @@ void Faces::add_side(int d, bool upper) {
     work_.side_pressure -=
         sign * dt * area * total([=](std::ptrdiff_t c) { return p[c + inside] * (qs[c] + q[c]); });
   }
-  if (side.passes_grains) {  // the velocity there is given: what the grains inside press on it with
+  // Where the grains' velocity is given: what those inside press on it with.
+  if (side.passes_grains || side.inflow_of_grains != 0.0) {
     const double *ps = next_.p_s.data(), *leaving = next_.u_s[d].data();
     work_.side_pressure -=
         sign * dt * area * total([=](std::ptrdiff_t c) { return ps[c + inside] * leaving[c]; });

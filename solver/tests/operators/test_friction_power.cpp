@@ -68,7 +68,7 @@ TEST(Friction, WhatItsViscositiesMiss) {
     bed.solve();  // so heavy that nothing moves
     const auto missed = [&](double rate) {
       bed.next.u_s = shear(rate);
-      return bed.friction.yields_otherwise(bed.rheology, bed.next);
+      return bed.friction.yields_otherwise(bed.rheology, bed.next).share;
     };
     EXPECT_NEAR(missed(3.0), 0.0, 1e-6);
     EXPECT_NEAR(missed(6.0), regularised ? 0.0 : 1.0, 1e-3);

@@ -78,7 +78,9 @@ INSTANTIATE_TEST_SUITE_P(Steep, Slab,
                                            Variant{"advised_short_steps", "advised", 30.0, 2e-4},
                                            Variant{"sourced", "sourced", 30.0, 1e-3},
                                            Variant{"uphill", "advised", -30.0, 1e-3},
-                                           Variant{"just_steep_enough", "advised", 18.0, 1e-3}),
+                                           Variant{"just_steep_enough", "advised", 18.0, 1e-3},
+                                           Variant{"barely_steep_enough", "advised", 17.2, 1e-3},
+                                           Variant{"barely_and_long_steps", "advised", 17.2, 5e-3}),
                          [](const auto& variant) { return std::string(variant.param.name); });
 INSTANTIATE_TEST_SUITE_P(Flat, Slab, ::testing::Values(Variant{"advised_at_rest", "advised", 15.0, 1e-3}),
                          [](const auto& variant) { return std::string(variant.param.name); });
@@ -89,7 +91,7 @@ class RoughFloor : public ::testing::TestWithParam<double> {};
 
 TEST_P(RoughFloor, YieldsAtOnce) {
   constexpr double mu = 0.4;
-  for (const double inclination : {25.0, 30.0}) {
+  for (const double inclination : {22.5, 25.0, 30.0}) {
     Scene scene = slab({"", "advised", inclination, GetParam()});
     scene.sides[bottom] = {};
     scene.solid.friction = mu;
@@ -100,7 +102,9 @@ TEST_P(RoughFloor, YieldsAtOnce) {
     run.until(0.4);
     const double angle = inclination * M_PI / 180.0;
     const double block = run.scene.gravity * (std::sin(angle) - mu * std::cos(angle)) * 0.4;
-    EXPECT_NEAR(run.now.u_s[0][run.cell(1, 4)], block, 0.1 * block) << inclination << " degrees";
+    // what drives it beyond friction is 3.5 % of the weight at 22.5 degrees, and the lowest row lags
+    const double share = inclination < 23.0 ? 0.2 : 0.1;
+    EXPECT_NEAR(run.now.u_s[0][run.cell(1, 4)], block, share * block) << inclination << " degrees";
   }
 }
 
