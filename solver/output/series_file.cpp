@@ -96,7 +96,8 @@ std::string SeriesFile::rows_until(const std::filesystem::path& path, std::span<
     if (time != times[row]) {
       throw OutputError(
           "resume", path,
-          fmt::format("row {} should be of t = {} s, the case asks for it before the checkpoint, and {}",
+          fmt::format("row {} should be of t = {} s, the case asks for it before the checkpoint, and {} (an "
+                      "output.series_interval that is left out goes with time.end: give the one it had)",
                       row + 1, times[row], time ? fmt::format("is of {} s", *time) : "is not there"));
     }
     kept.append(lines[row]).append("\n");

@@ -140,7 +140,10 @@ std::span<const Alarm> Alarms::list() {
             [](const Watched&) { return largest_volume_error; }},
       Alarm{"solid fraction", parts::solid_pressure, "denser than contact.solid_fraction_max",
             [](const Watched& w) { return w.monitors.solid_fraction_max(); },
-            [](const Watched& w) { return w.scene.contact.solid_fraction_max; }},
+            [](const Watched& w) {
+              // a cell's volume is solved to that
+              return w.scene.contact.solid_fraction_max + w.scene.numerics.volume_tolerance;
+            }},
       Alarm{"negative fraction", parts::grains_transport, "a cell holds less than nothing",
             [](const Watched& w) { return -w.monitors.solid_fraction_min(); },
             [](const Watched&) { return -lowest_fraction; }},
