@@ -1,6 +1,7 @@
 // A two-dimensional tank of water with beads, for tests of beads and fluid together.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -31,6 +32,15 @@ inline TankSetup tank(int nx, int ny, double cell, double depth, FluidSide top) 
   s.beads.density = 2500.0;
   s.beads.scratch_folder = s.fluid.scratch_folder;
   return s;
+}
+
+// Closes cells [lower, upper) to both.
+inline void put_obstacle(TankSetup& s, std::array<int, 2> lower, std::array<int, 2> upper) {
+  s.fluid.obstacles.resize(s.cells(), 0);
+  for (int j = lower[1]; j < upper[1]; ++j)
+    for (int i = lower[0]; i < upper[0]; ++i)
+      s.fluid.obstacles[static_cast<std::size_t>(j * s.fluid.cells[0] + i)] = 1;
+  s.beads.obstacles = {s.fluid.cells, s.fluid.spacing, s.fluid.obstacles};
 }
 
 inline CoupledRun start(const TankSetup& s, const std::vector<double>& position, double fluid_dt = 2e-4,

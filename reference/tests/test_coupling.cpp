@@ -15,6 +15,7 @@ namespace {
 using demvof::BeadState;
 using demvof::CoupledRun;
 using demvof::FluidSide;
+using demvof::test::put_obstacle;
 using demvof::test::start;
 using demvof::test::tank;
 using demvof::test::TankSetup;
@@ -111,6 +112,54 @@ TEST(Coupling, MomentumOfBeadsFluidAndWallsIsBalanced) {
     EXPECT_GT(std::abs(x.walls), 0.05 * x.given);  // the walls do take part
     EXPECT_NEAR(x.change, x.walls, 0.01 * x.given);
   }
+}
+
+// The same towards a block and over a step, which take their share.
+TEST(Coupling, MomentumIsBalancedAmongObstacles) {
+  for (const bool predict_pressure : {false, true}) {
+    TankSetup s = tank(16, 16, 2.5e-3, 4e-3, FluidSide::slip);
+    s.fluid.gravity = s.beads.gravity = 0.0;
+    put_obstacle(s, {12, 4}, {14, 12});
+    put_obstacle(s, {2, 0}, {12, 4});
+    if (predict_pressure) s.beads.density = 400.0;
+    const Impulses x = shot_into_water(s, predict_pressure);
+    EXPECT_GT(std::abs(x.walls), 0.05 * x.given);
+    EXPECT_NEAR(x.change, x.walls, 0.02 * x.given) << predict_pressure;
+  }
+}
+
+// A bed at rest on the floor and on a step under water: the pores have the pressure of the water.
+TEST(Coupling, ABedOnAStepRestsInHydrostaticWater) {
+  TankSetup s = tank(8, 10, 2.5e-3, 4e-3, FluidSide::slip);
+  put_obstacle(s, {4, 0}, {8, 3});
+  std::mt19937 random(3);
+  const double volume = std::numbers::pi / 6.0 * d * d * d;
+  const auto count = static_cast<std::size_t>(0.25 * 0.02 * 0.008 * 4e-3 / volume);
+  const auto position = demvof::disperse_beads(count, {0, 0.009, 0}, {0.02, 0.017, 4e-3}, true, d, random);
+  CoupledRun run = start(s, position, 2e-4);
+  const double liquid = run.fluid().liquid_volume() + static_cast<double>(count) * volume;
+  while (run.time() < 0.6) run.step(2e-4);
+  EXPECT_LT(run.fluid().largest_speed(), 0.05);  // what the beads stirred still turns
+  for (std::size_t c = 0; c < s.cells(); ++c) {
+    const double depth = 0.025 - (static_cast<double>(c / 8) + 0.5) * 2.5e-3;
+    const bool closed = s.fluid.obstacles[c] != 0;
+    EXPECT_NEAR(run.fluid().view().pressure[c], closed ? 0.0 : 9810.0 * depth, 5.0) << c;
+    if (closed) {
+      EXPECT_EQ(run.solid_fraction()[c], 0.0);
+    }
+  }
+  double solid = 0.0;
+  for (const double f : run.solid_fraction()) solid += f * run.mapping().cell_volume();
+  EXPECT_NEAR(solid, static_cast<double>(count) * volume, 1e-9 * solid);
+  EXPECT_NEAR(run.fluid().liquid_volume() + solid, liquid, 1e-8 * liquid);
+  int on_step = 0, on_floor = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    const double x = run.beads().state().position[3 * b], y = run.beads().state().position[3 * b + 1];
+    (x > 0.01 ? on_step : on_floor) += 1;
+    EXPECT_GT(y, (x > 0.01 ? 0.0075 : 0.0) + 0.45 * d);
+  }
+  EXPECT_GT(on_step, 20);
+  EXPECT_GT(on_floor, on_step);
 }
 
 // Beads at rest beside a closed gate: nothing moves as the first step begins.

@@ -23,6 +23,7 @@ using demvof::CoupledRun;
 using demvof::EnergyLedger;
 using demvof::EnergyTerms;
 using demvof::FluidSide;
+using demvof::test::put_obstacle;
 using demvof::test::start;
 using demvof::test::tank;
 using demvof::test::TankSetup;
@@ -87,7 +88,7 @@ TEST(WorkMeter, WorksOfAllForcesMakeTheChangeOfKineticEnergy) {
     engine.run(25);
   }
   const demvof::BeadWork& work = engine.work();
-  for (const double part : {work.gravity, work.drag, work.force, work.contacts, work.walls, work.gate})
+  for (const double part : {work.gravity, work.drag, work.force, work.contacts, work.walls, work.surfaces})
     EXPECT_GT(std::abs(part), 1e-4 * thrown);
   EXPECT_GT(engine.spin_energy(), 1e-3 * engine.translation_energy());
   EXPECT_NEAR(kinetic(engine) - thrown, work.total(), 1e-9 * thrown);
@@ -119,6 +120,26 @@ TEST(ElasticEnergy, IsWhatBeadsPressedTogetherFlyApartWith) {
   engine->run(2000);
   EXPECT_EQ(engine->elastic_energy().beads, 0.0);
   EXPECT_NEAR(kinetic(*engine), stored, 0.01 * stored);
+}
+
+// Faces, an edge that stands out, and no edge in a corner; along a flat side no edge between cells.
+TEST(ElasticEnergy, KnowsObstacles) {
+  BeadSettings s = box();
+  s.obstacles.cells = {6, 6, 1};
+  s.obstacles.spacing = {2e-3, 2e-3, 6e-3};
+  s.obstacles.closed.assign(36, 0);
+  for (const std::size_t c : {2U, 3U, 8U}) s.obstacles.closed[c] = 1;  // an L: two below, one above the left
+  const double overlap = 0.01 * d, modulus = s.law.young / (2.0 * (1.0 - 0.09)), near = 0.5 * d - overlap;
+  const double wall = 8.0 / 15.0 * modulus * std::sqrt(0.5 * d) * std::pow(overlap, 2.5);
+  const auto of = [&](double x, double y) {
+    return demvof::elastic_energy(s, {x, y, 0.003}, {}, {}).walls / wall;
+  };
+  EXPECT_NEAR(of(5e-3, 4e-3 + near), 1.0, 1e-6);                     // on top
+  EXPECT_NEAR(of(7e-3, 2e-3 + near), 1.0, 1e-6);                     // on the low one
+  EXPECT_NEAR(of(6e-3 + near, 2e-3 + near), 2.0, 1e-6);              // in the corner between
+  EXPECT_NEAR(of(4e-3 - near, 2e-3), 1.0, 1e-6);                     // at the side, between two cells
+  EXPECT_NEAR(of(4e-3 - 0.6 * near, 4e-3 + 0.8 * near), 1.0, 1e-6);  // at an edge
+  EXPECT_EQ(of(4e-3 - 0.8 * d, 4e-3 + 0.8 * d), 0.0);                // away from it
 }
 
 TEST(ElasticEnergy, KnowsPlanesPlateAndImages) {
@@ -178,5 +199,25 @@ TEST(EnergyLedger, AFallingBedLosesItsEnergyToDrag) {
   const double given = before - terms.potential;
   EXPECT_GT(given, 0.0);
   EXPECT_GT(terms.drag, 0.6 * given);
+  EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);
+}
+
+// The same onto a step, at whose edge it parts.
+TEST(EnergyLedger, ABedThatFallsOnAStepClosesItsBudget) {
+  TankSetup s = tank(8, 24, 2.5e-3, 4e-3, FluidSide::slip);
+  put_obstacle(s, {4, 0}, {8, 6});
+  std::mt19937 random(2);
+  const double volume = std::numbers::pi / 6.0 * std::pow(s.beads.diameter, 3);
+  const auto count = static_cast<std::size_t>(0.4 * 0.02 * 0.015 * 4e-3 / volume);
+  const auto position =
+      demvof::disperse_beads(count, {0, 0.02, 0}, {0.02, 0.035, 4e-3}, true, s.beads.diameter, random);
+  CoupledRun run = start(s, position, 1e-4);
+  EnergyLedger ledger(run);
+  const double before = ledger.terms().potential;
+  for (int n = 0; n < 1500; ++n) run.step(1e-4);
+  const EnergyTerms terms = ledger.terms();
+  const double given = before - terms.potential;
+  EXPECT_GT(given, 0.0);
+  EXPECT_GT(terms.walls, 0.0);
   EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);
 }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/demvof/fluid/fluid.hpp"
+#include "reference/tests/fluid_tank.hpp"
 
 namespace {
 
@@ -13,37 +13,14 @@ using demvof::Fluid;
 using demvof::FluidSettings;
 using demvof::FluidSide;
 using demvof::MomentumConvection;
-
-FluidSettings tank(int nx, int ny) {
-  FluidSettings s;
-  s.cells = {{nx, ny, 1}};
-  s.spacing = {{2.5e-3, 2.5e-3, 4e-3}};
-  s.sides = {{FluidSide::no_slip, FluidSide::no_slip, FluidSide::no_slip, FluidSide::open, FluidSide::empty,
-              FluidSide::empty}};
-  s.scratch_folder = (std::filesystem::temp_directory_path() / "demvof-tests").string();
-  return s;
-}
-
-BeadLoad no_beads(std::size_t cells) {
-  BeadLoad load;
-  load.void_fraction.assign(cells, 1.0);
-  load.drag_coefficient.assign(cells, 0.0);
-  for (auto& component : load.force) component.assign(cells, 0.0);
-  return load;
-}
-
-std::vector<double> filled_to(const FluidSettings& s, double level, int columns) {
-  std::vector<double> alpha;
-  for (int j = 0; j < s.cells[1]; ++j)
-    for (int i = 0; i < s.cells[0]; ++i)
-      alpha.push_back(i < columns && j * s.spacing[1] < level - 1e-9 ? 1.0 : 0.0);
-  return alpha;
-}
+using demvof::test::filled_to;
+using demvof::test::fluid_tank;
+using demvof::test::no_beads;
 
 }  // namespace
 
 TEST(Fluid, APoolStaysAtRestUnderHydrostaticPressure) {
-  const FluidSettings s = tank(16, 16);
+  const FluidSettings s = fluid_tank(16, 16);
   Fluid fluid(s, filled_to(s, 0.025, 16), std::vector<double>(256, 1.0));
   const BeadLoad load = no_beads(256);
   for (int n = 0; n < 20; ++n) fluid.step(2e-4, load);
@@ -58,7 +35,7 @@ TEST(Fluid, APoolStaysAtRestUnderHydrostaticPressure) {
 
 // Full of water and closed, the floor inclined by 30 degrees: at rest, and along the floor as well.
 TEST(Fluid, AnInclinedTankStandsInHydrostaticPressure) {
-  FluidSettings s = tank(16, 16);
+  FluidSettings s = fluid_tank(16, 16);
   s.sides[3] = FluidSide::slip;
   s.inclination = 30.0;
   Fluid fluid(s, std::vector<double>(256, 1.0), std::vector<double>(256, 1.0));
@@ -71,7 +48,7 @@ TEST(Fluid, AnInclinedTankStandsInHydrostaticPressure) {
 }
 
 TEST(Fluid, BeforeTheFirstStepThePressureIsHydrostatic) {
-  const FluidSettings s = tank(16, 16);
+  const FluidSettings s = fluid_tank(16, 16);
   const Fluid fluid(s, filled_to(s, 0.025, 16), std::vector<double>(256, 1.0));
   const double gas = 1.0 * 9.81 * 0.015, water = 1000.0 * 9.81 * (0.025 - 0.5 * 2.5e-3);
   EXPECT_NEAR(fluid.view().pressure[0], gas + water, 0.5);
@@ -79,7 +56,7 @@ TEST(Fluid, BeforeTheFirstStepThePressureIsHydrostatic) {
 }
 
 TEST(Fluid, ADamBreakKeepsItsLiquidAndStaysBounded) {
-  const FluidSettings s = tank(32, 16);
+  const FluidSettings s = fluid_tank(32, 16);
   Fluid fluid(s, filled_to(s, 0.03, 10), std::vector<double>(512, 1.0));
   const BeadLoad load = no_beads(512);
   const double start = fluid.liquid_volume();
@@ -97,7 +74,7 @@ TEST(Fluid, ADamBreakKeepsItsLiquidAndStaysBounded) {
 
 // Water on the left of a closed gate stays there; with the gate half open it leaves.
 TEST(Fluid, AGateBlocksTheFluid) {
-  const FluidSettings s = tank(32, 16);
+  const FluidSettings s = fluid_tank(32, 16);
   const BeadLoad load = no_beads(512);
   const auto right_half = [](const Fluid& fluid) {
     double sum = 0.0;
@@ -120,7 +97,7 @@ TEST(Fluid, AGateBlocksTheFluid) {
 
 // A uniform force on the fluid of a closed column builds up its own pressure gradient.
 TEST(Fluid, AForceOnTheFluidIsBalancedByPressureAtRest) {
-  FluidSettings s = tank(8, 16);
+  FluidSettings s = fluid_tank(8, 16);
   s.gravity = 0.0;
   s.sides[3] = FluidSide::slip;
   Fluid fluid(s, std::vector<double>(128, 1.0), std::vector<double>(128, 0.5));
@@ -143,7 +120,7 @@ struct Whirl {
 };
 
 Whirl whirl(MomentumConvection convection, int n) {
-  FluidSettings s = tank(n, n);
+  FluidSettings s = fluid_tank(n, n);
   const double side = 0.04;
   s.spacing = {{side / n, side / n, 4e-3}};
   s.gravity = s.liquid_viscosity = s.gas_viscosity = 0.0;
@@ -205,7 +182,7 @@ TEST(Convection, TheLedgerKnowsWhatEitherSchemeTakes) {
 TEST(Convection, VanLeerStaysBoundedInADamBreak) {
   double fastest[2] = {0.0, 0.0};
   for (const MomentumConvection scheme : {MomentumConvection::upwind, MomentumConvection::van_leer}) {
-    FluidSettings s = tank(32, 16);
+    FluidSettings s = fluid_tank(32, 16);
     s.convection = scheme;
     Fluid fluid(s, filled_to(s, 0.03, 10), std::vector<double>(512, 1.0));
     const BeadLoad load = no_beads(512);
@@ -234,7 +211,7 @@ TEST(Convection, VanLeerStaysBoundedInADamBreak) {
 }
 
 TEST(Fluid, AMissingScratchFolderIsNamed) {
-  FluidSettings s = tank(4, 4);
+  FluidSettings s = fluid_tank(4, 4);
   s.scratch_folder = "/proc/nowhere";
   EXPECT_THROW(
       {

@@ -67,6 +67,23 @@ TEST(RecordScene, ACaseWithLiquidKeepsIt) {
   EXPECT_GT(*wet.series.column("liquid_volume").back(), 0.0);
 }
 
+// Over a step, with and without a gate before it: to the end, and nothing is lost.
+TEST(RecordScene, ACaseWithAnObstacleRunsAndKeepsWhatItHas) {
+  const std::string step = "obstacle={x0=[0.0125], x1=[0.0175], y0=[0], y1=[0.005]}";
+  for (const bool gate : {false, true}) {
+    std::vector<std::string> changes{step, "reference.hold=0.005", "time.end=0.04"};
+    if (gate) changes.emplace_back("gate={position=0.01, speed=1}");
+    const Recorded wet = recorded(changes);
+    ASSERT_EQ(wet.code, 0) << wet.facts;
+    const auto solid = wet.series.column("solid_volume");
+    for (const auto& value : wet.series.column("liquid_volume_change")) EXPECT_LT(std::abs(*value), 1e-7);
+    for (const auto& value : solid) EXPECT_NEAR(*value, *solid.front(), 1e-9 * *solid.front());
+    EXPECT_GT(*wet.series.column("front_quantile").back(), 0.0102);
+    // The water stands 15 mm high, and its surface has not moved by more than 2 mm.
+    EXPECT_NEAR(*wet.series.column("p_base").back(), 9.81 * (15e-3 - 1.25e-3) * 1000.0, 25.0);
+  }
+}
+
 // A column 7 beads high packs looser at its boundaries than asked for: it says so, and by how much.
 TEST(RecordScene, APreparationThatMissesItsPackingSaysSo) {
   const auto warned = [](const Recorded& r) {

@@ -45,6 +45,18 @@ TEST(EnergyOfARecord, ADryColumnLosesItsEnergyInContacts) {
   EXPECT_EQ(dry.last("gained_gate"), 0.0);
 }
 
+// Beside a step: its cells hold no fluid in either account.
+TEST(EnergyOfARecord, AColumnBesideAStepAccountsForItsEnergy) {
+  const Budget wet = budget({"obstacle={x0=[0.0125], x1=[0.02], y0=[0], y1=[0.0025]}"});
+  EXPECT_GT(wet.given, 0.0);
+  for (const auto& residual : wet.series.column("energy_residual"))
+    EXPECT_NEAR(*residual, 0.0, 0.01 * wet.given);
+  const double phases = *wet.series.column("potential_energy_solid").front() +
+                        *wet.series.column("potential_energy_liquid").front() +
+                        *wet.series.column("potential_energy_gas").front();
+  EXPECT_NEAR(*wet.series.column("energy_potential").front(), phases, 0.01 * phases);
+}
+
 // Under water: every term at once, in each row.
 TEST(EnergyOfARecord, AColumnInWaterAccountsForItsEnergy) {
   const Budget wet = budget({});

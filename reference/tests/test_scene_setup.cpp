@@ -87,9 +87,73 @@ TEST(SceneSetup, WhatOnlyTheContinuumHasIsRefused) {
   using Changes = std::vector<std::string>;
   for (const auto& [changes, what] :
        {std::pair{Changes{"walls.right.outflow_pressure=0"}, "a side is of kind outlet"},
-        std::pair{Changes{"walls.left=periodic", "walls.right=periodic"}, "a side is of kind periodic"},
-        std::pair{Changes{"obstacle={x0=[0.025], x1=[0.03], y0=[0], y1=[0.005]}"}, "obstacles"}})
+        std::pair{Changes{"walls.left=periodic", "walls.right=periodic"}, "a side is of kind periodic"}})
     EXPECT_NE(refusal(changes).find(what), std::string::npos) << refusal(changes);
+}
+
+namespace {
+
+const std::string step = "obstacle={x0=[0.015], x1=[0.02], y0=[0], y1=[0.005]}";
+
+}  // namespace
+
+TEST(SceneSetup, ObstaclesAreTheSameForBeadsAndFluid) {
+  EXPECT_EQ(refusal({step}), "");
+  const demvof::FluidSettings fluid = demvof::fluid_settings(small({step}), "scratch");
+  const demvof::BeadSettings beads = demvof::bead_settings(small({step}), "scratch");
+  ASSERT_EQ(fluid.obstacles.size(), 12U * 8U);
+  for (std::size_t c = 0; c < fluid.obstacles.size(); ++c)
+    EXPECT_EQ(fluid.obstacles[c], c / 12 < 2 && c % 12 >= 6 && c % 12 < 8 ? 1 : 0) << c;
+  EXPECT_EQ(beads.obstacles.closed, fluid.obstacles);
+  EXPECT_EQ(beads.obstacles.cells, fluid.cells);
+  EXPECT_EQ(beads.obstacles.spacing, fluid.spacing);
+  EXPECT_TRUE(demvof::bead_settings(small(), "scratch").obstacles.closed.empty());
+  EXPECT_TRUE(demvof::fluid_settings(small(), "scratch").obstacles.empty());
+}
+
+// Grains stick to obstacles, also where they slip on the tank's walls.
+TEST(SceneSetup, ObstaclesHaveTheFrictionOfWallsThatGrainsStickTo) {
+  const char* slip = R"(walls={left="slip", right="slip", bottom="slip", top="open"})";
+  const demvof::ContactLaw law = demvof::bead_settings(small({step, slip}), "scratch").law;
+  EXPECT_EQ(law.wall_friction, 0.0);
+  EXPECT_EQ(law.obstacle_friction, 0.4);
+}
+
+// Rough on top as the floor is, and none of its beads inside.
+TEST(SceneSetup, ObstaclesAreRoughOnTop) {
+  const std::vector<double> floor = demvof::floor_beads(small({step}), 1);
+  int on_top = 0, below = 0;
+  for (std::size_t n = 0; n < floor.size(); n += 3) {
+    const double x = floor[n], y = floor[n + 1];
+    const bool over = x >= 0.015 && x < 0.02;
+    EXPECT_TRUE(over ? y >= 0.005 && y <= 0.005 + 0.2 * d : y <= 0.2 * d) << x << ' ' << y;
+    ++(over ? on_top : below);
+  }
+  EXPECT_NEAR(on_top, 0.7 * 0.005 * 0.004 / (0.785 * d * d), 2.0);
+  EXPECT_NEAR(below, 0.7 * 0.025 * 0.004 / (0.785 * d * d), 8.0);
+  EXPECT_TRUE(demvof::floor_beads(small({step, "reference.floor=smooth"}), 1).empty());
+  // A bed that stands on an obstacle stands on a floor.
+  const std::vector<std::string> raised{"obstacle={x0=[0], x1=[0.0125], y0=[0], y1=[0.005]}", "bed.y=0.005"};
+  EXPECT_EQ(refusal(raised), "");
+  EXPECT_FALSE(demvof::floor_beads(small(raised), 1).empty());
+}
+
+TEST(SceneSetup, ObstaclesThatBeadsOrFluidCannotHaveAreRefused) {
+  using Changes = std::vector<std::string>;
+  for (const auto& [changes, what] :
+       {std::pair{Changes{"obstacle={x0=[0.0225], x1=[0.03], y0=[0], y1=[0.005]}", "reference.cell=0.005"},
+                  "an obstacle's face at x = 0.0225 m does not lie on one of the fluid cells; choose "
+                  "reference.cell so that it does"},
+        std::pair{Changes{"obstacle={x0=[0.015, 0.02], x1=[0.02, 0.025], y0=[0, 0.005], y1=[0.005, 0.01]}"},
+                  "obstacles touch along an edge alone"},
+        std::pair{Changes{"obstacle={x0=[0.02, 0.02], x1=[0.0225, 0.03], y0=[0, 0.01], y1=[0.01, 0.0125]}"},
+                  "obstacles shut a part of the tank off"},
+        // as long as the gate stands
+        std::pair{Changes{"gate={position=0.01, speed=1}", "bed.x=0.0025", "bed.length=0.0075",
+                          "obstacle={x0=[0.0], x1=[0.0025], y0=[0.0], y1=[0.005]}"},
+                  ""}})
+    EXPECT_TRUE(what[0] == 0 ? refusal(changes).empty() : refusal(changes).find(what) != std::string::npos)
+        << refusal(changes);
 }
 
 TEST(SceneSetup, AnInclinedTankIsInclinedForBoth) {

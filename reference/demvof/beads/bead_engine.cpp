@@ -100,7 +100,10 @@ BeadEngine::BeadEngine(BeadSettings settings, const BeadState& mobile,
   meter_->look(WorkMeter::Place::after_beads);
   declare_walls();
   meter_->look(WorkMeter::Place::after_walls);
-  if (settings_.gate) declare_gate();
+  if (!settings_.obstacles.closed.empty()) declare_mesh("obstacles", write_obstacles, 5);
+  if (settings_.gate) declare_mesh("gate", write_gate, 4);
+  gate_present_ = settings_.gate.has_value();
+  declare_surfaces();
 
   command(fmt::format("timestep {}", settings_.dt));
   set_gravity(settings_.gravity, settings_.inclination);
@@ -150,10 +153,15 @@ void BeadEngine::declare_materials() {
   each("young", "youngsModulus", law.young);
   each("poisson", "poissonsRatio", law.poisson);
   pairs("restitution", "coefficientRestitution", uniform(law.restitution));
-  const double bead = law.bead_friction, wall = law.wall_friction, gate = law.gate_friction;
-  const ByType of_beads{bead, bead, wall, gate};
+  const double bead = law.bead_friction, wall = law.wall_friction, gate = law.gate_friction,
+               obstacle = law.obstacle_friction;
+  const ByType of_beads{bead, bead, wall, gate, obstacle};
   pairs("friction", "coefficientFriction",
-        {of_beads, of_beads, {wall, wall, wall, wall}, {gate, gate, wall, gate}});
+        {of_beads,
+         of_beads,
+         same(wall),
+         {gate, gate, wall, gate, wall},
+         {obstacle, obstacle, wall, wall, obstacle}});
   if (rolling_) pairs("rolling", "coefficientRollingFriction", uniform(law.rolling_friction));
 }
 
@@ -173,14 +181,23 @@ void BeadEngine::declare_walls() {
   }
 }
 
-void BeadEngine::declare_gate() {
-  const std::string file =
-      fmt::format("{}/gate-{}-{}.stl", settings_.scratch_folder, ::getpid(), static_cast<void*>(this));
-  write_gate(file, settings_);
-  command(fmt::format("fix gate all mesh/surface file \"{}\" type 4", file));
+void BeadEngine::declare_mesh(const char* name, MeshWriter& write, int type) {
+  const std::string file = fmt::format("{}/{}-{}-{}.stl", settings_.scratch_folder, name, ::getpid(),
+                                       static_cast<const void*>(this));
+  write(file, settings_);
+  command(fmt::format("fix {} all mesh/surface file \"{}\" type {}", name, file, type));
   std::filesystem::remove(file);
-  command(fmt::format("fix gatewall mobile wall/{} mesh n_meshes 1 meshes gate", contact));
-  gate_present_ = true;
+}
+
+// LIGGGHTS has one wall of meshes, whatever their number.
+bool BeadEngine::declare_surfaces() {
+  std::vector<const char*> meshes;
+  if (!settings_.obstacles.closed.empty()) meshes.push_back("obstacles");
+  if (gate_present_) meshes.push_back("gate");
+  if (meshes.empty()) return false;
+  command(fmt::format("fix surfaces mobile wall/{} mesh n_meshes {} meshes {}", contact, meshes.size(),
+                      fmt::join(meshes, " ")));
+  return true;
 }
 
 void BeadEngine::set_gravity(double gravity, double slope) {
@@ -218,10 +235,11 @@ void BeadEngine::raise_gate(double speed) {
 
 void BeadEngine::remove_gate() {
   if (!gate_present_) return;
-  command("unfix gatewall");
+  command("unfix surfaces");
   if (gate_moving_) command("unfix gatemotion");
   command("unfix gate");
   gate_present_ = false;
+  if (declare_surfaces()) meter_->look_last_again();
   meter_->set_gate_speed(0.0);
   set_up_ = false;
 }

@@ -75,7 +75,9 @@ class BeadEngine {
   void command(const std::string& line);
   void declare_materials();
   void declare_walls();
-  void declare_gate();
+  using MeshWriter = void(const std::string& path, const BeadSettings& settings);
+  void declare_mesh(const char* name, MeshWriter& write, int type);
+  bool declare_surfaces();  // false where there are none
   void refresh_state();
 };
 

@@ -14,13 +14,28 @@ using Vector = std::array<double, 3>;  // as in fluid/fluid.hpp
 // material: beads of any size have the same overlap over diameter under the same stress, and the same packing
 // and friction at rest (coarse-grained beads: Bierwisch et al., J. Mech. Phys. Solids 57, 2009).
 struct ContactLaw {
-  double young = 5e6;             // [Pa], >= 5e6 (LIGGGHTS refuses less in SI units)
-  double poisson = 0.3;           // [-]
-  double restitution = 0.9;       // [-], in (0, 1]
-  double bead_friction = 0.4;     // bead on bead [-]
-  double rolling_friction = 0.0;  // bead on bead, epsd2 model [-]; 0 leaves the model out
-  double wall_friction = 0.4;     // bead on wall [-]
-  double gate_friction = 0.4;     // bead on the gate's plate [-]
+  double young = 5e6;              // [Pa], >= 5e6 (LIGGGHTS refuses less in SI units)
+  double poisson = 0.3;            // [-]
+  double restitution = 0.9;        // [-], in (0, 1]
+  double bead_friction = 0.4;      // bead on bead [-]
+  double rolling_friction = 0.0;   // bead on bead, epsd2 model [-]; 0 leaves the model out
+  double wall_friction = 0.4;      // bead on wall [-]
+  double gate_friction = 0.4;      // bead on the gate's plate [-]
+  double obstacle_friction = 0.4;  // bead on obstacles [-]
+};
+
+// Obstacles: cells of a grid over the tank that no bead enters, one at least as wide as a bead.
+struct Obstacles {
+  std::array<int, 3> cells{1, 1, 1};  // cells[2] = 1: through the whole depth
+  Vector spacing{};                   // [m]
+  std::vector<char> closed;  // 1 in their cells, cell (i, j, k) at (k ny + j) nx + i; empty without obstacles
+  // Not beyond the tank's sides.
+  bool fill(const std::array<int, 3>& cell) const {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (cell[d] < 0 || cell[d] >= cells[d]) return false;
+    return !closed.empty() &&
+           closed[static_cast<std::size_t>((cell[2] * cells[1] + cell[1]) * cells[0] + cell[0])] != 0;
+  }
 };
 
 struct BeadSettings {
@@ -35,6 +50,7 @@ struct BeadSettings {
   double inclination = 0.0;    // of the floor, down towards +x [degrees]
   std::optional<double> gate;  // x of a vertical plate over the whole depth [m]
   double gate_height = 0.0;    // upper edge of the plate at the start [m]
+  Obstacles obstacles;
   std::string scratch_folder;  // for the files that LIGGGHTS reads
 };
 

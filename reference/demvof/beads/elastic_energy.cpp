@@ -90,6 +90,38 @@ class Boxes {
   }
 };
 
+// visit(distance) for what a bead at x faces of obstacles, in its cell's neighbours: their faces, and the
+// edges and corners that stand out.
+template <class Visit>
+void for_each_obstacle(const Obstacles& o, const double* x, Visit&& visit) {
+  const std::size_t directions = o.cells[2] == 1 ? 2 : 3;
+  std::array<int, 3> here{};
+  for (std::size_t d = 0; d < directions; ++d)
+    here[d] = std::clamp(static_cast<int>(std::floor(x[d] / o.spacing[d])), 0, o.cells[d] - 1);
+  const int layers = directions == 3 ? 27 : 9;
+  for (int n = 0; n < layers; ++n) {
+    const std::array<int, 3> step{n % 3 - 1, n / 3 % 3 - 1, directions == 3 ? n / 9 - 1 : 0};
+    std::array<int, 3> there = here;
+    double square = 0.0;
+    for (std::size_t d = 0; d < directions; ++d) {
+      there[d] += step[d];
+      if (step[d] == 0) continue;
+      const double away = step[d] < 0 ? x[d] - here[d] * o.spacing[d] : (here[d] + 1) * o.spacing[d] - x[d];
+      square += away * away;
+    }
+    if (there == here || !o.fill(there)) continue;
+    // Behind a nearer obstacle it is not met.
+    bool stands_out = true;
+    for (int m = 1; m < 7; ++m) {
+      std::array<int, 3> between = here;
+      for (std::size_t d = 0; d < 3; ++d)
+        if ((m >> d & 1) != 0) between[d] = there[d];
+      stands_out = stands_out && (between == here || between == there || !o.fill(between));
+    }
+    if (stands_out) visit(std::sqrt(square));
+  }
+}
+
 }  // namespace
 
 ElasticEnergy elastic_energy(const BeadSettings& s, const std::vector<double>& mobile,
@@ -118,6 +150,7 @@ ElasticEnergy elastic_energy(const BeadSettings& s, const std::vector<double>& m
       plane(x[2]);
       plane(s.tank[2] - x[2]);
     }
+    if (!s.obstacles.closed.empty()) for_each_obstacle(s.obstacles, x, plane);
     if (s.gate && gate_edge && x[1] > *gate_edge) plane(std::abs(x[0] - *s.gate));
   }
   return energy;

@@ -1,6 +1,8 @@
 #include "reference/demvof/beads/work_meter.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -35,7 +37,7 @@ double kicked(double velocity, double force, double mass, double half_step) {
 
 BeadWork& BeadWork::operator+=(const BeadWork& other) {
   for (double BeadWork::*part : {&BeadWork::gravity, &BeadWork::drag, &BeadWork::force, &BeadWork::contacts,
-                                 &BeadWork::walls, &BeadWork::gate, &BeadWork::gate_drive})
+                                 &BeadWork::walls, &BeadWork::surfaces, &BeadWork::gate_drive})
     this->*part += other.*part;
   return *this;
 }
@@ -45,6 +47,9 @@ WorkMeter::WorkMeter(void* lammps, const BeadSettings& settings, const FluidLoad
   const double d = settings.diameter;
   mass_ = settings.density * std::numbers::pi / 6.0 * d * d * d;
   inertia_ = 0.1 * mass_ * d * d;  // 2/5 m r^2
+  plate_ = settings.gate.value_or(0.0);
+  // Obstacles are a cell away from it, which is at least as wide as a bead: no bead touches both.
+  reach_of_plate_ = settings.obstacles.closed.empty() ? std::numeric_limits<double>::infinity() : 0.5 * d;
 }
 
 void WorkMeter::look(Place place) {
@@ -58,6 +63,12 @@ void WorkMeter::look(Place place) {
   if (fix == nullptr) throw std::runtime_error("LIGGGHTS has no fix external");
   probes_[n] = {this, place};
   fix->set_callback(&WorkMeter::called, &probes_[n]);
+}
+
+void WorkMeter::look_last_again() {
+  const std::string command = std::string("unfix ") + names[static_cast<std::size_t>(Place::after_all)];
+  lammps_command(lammps_, command.c_str());
+  look(Place::after_all);
 }
 
 void WorkMeter::called(void* probe, std::int64_t step, int atoms, int*, double**, double** unused) {
@@ -118,7 +129,7 @@ void WorkMeter::count_bead(int atom, bool whole_step, BeadWork& first) {
     const double drag = loaded ? coefficient * (load_.velocity[m] - v) : 0.0;
     const double force = loaded ? load_.force[m] : 0.0;
     const double contacts = beads_.force[n], walls = walls_.force[n] - contacts;
-    const double gate = total - walls_.force[n] - gravity - drag - force;
+    const double surfaces = total - walls_.force[n] - gravity - drag - force;
     const auto add = [&](BeadWork& work, double velocity) {
       const double path = half * velocity;
       work.gravity += gravity * path;
@@ -126,21 +137,21 @@ void WorkMeter::count_bead(int atom, bool whole_step, BeadWork& first) {
       work.force += force * path;
       work.contacts += contacts * path;
       work.walls += walls * path;
-      work.gate += gate * path;
+      work.surfaces += surfaces * path;
     };
     kick_twice(add, v, total, mass_);
 
     const double torque = atoms.torque[atom][d], spin = atoms.omega[atom][d];
     const double by_beads = beads_.torque[n], by_walls = walls_.torque[n] - by_beads,
-                 by_gate = torque - walls_.torque[n];
+                 by_surfaces = torque - walls_.torque[n];
     const auto add_spin = [&](BeadWork& work, double rate) {
       const double angle = half * rate;
       work.contacts += by_beads * angle;
       work.walls += by_walls * angle;
-      work.gate += by_gate * angle;
+      work.surfaces += by_surfaces * angle;
     };
     kick_twice(add_spin, spin, torque, inertia_);
-    if (d == 1) plate = gate;
+    if (d == 1 && std::abs(atoms.x[atom][0] - plate_) < reach_of_plate_) plate = surfaces;
   }
   if (whole_step) first.gate_drive += plate * gate_speed_ * dt_;
 }

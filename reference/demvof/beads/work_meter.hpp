@@ -21,13 +21,13 @@ struct BeadWork {
   double force = 0.0;     // FluidLoad's force
   double contacts = 0.0;  // with beads, mobile and frozen
   double walls = 0.0;     // with the planes of the tank, which stand
-  double gate = 0.0;      // with the gate's plate
+  double surfaces = 0.0;  // with obstacles and the gate's plate
   // By whatever moves the plate: its force on the beads times its own speed.
   double gate_drive = 0.0;
 
   BeadWork& operator+=(const BeadWork& other);
   // Change of the kinetic energy.
-  double total() const { return gravity + drag + force + contacts + walls + gate; }
+  double total() const { return gravity + drag + force + contacts + walls + surfaces; }
 };
 
 // LIGGGHTS adds forces in the order in which they were declared. The meter looks at them at three places.
@@ -39,6 +39,7 @@ class WorkMeter {
   WorkMeter(void* lammps, const BeadSettings& settings, const FluidLoad& load);
   // To be called for each place in turn, between the commands that declare the forces.
   void look(Place place);
+  void look_last_again();  // behind a force that was declared after all
 
   void set_gravity(const Vector& acceleration) { gravity_ = acceleration; }  // [m/s2]
   void set_gate_speed(double speed) { gate_speed_ = speed; }                 // upwards [m/s]
@@ -61,6 +62,7 @@ class WorkMeter {
   double dt_ = 0.0;                    // [s]
   Vector gravity_{};
   double gate_speed_ = 0.0;
+  double plate_ = 0.0, reach_of_plate_ = 0.0;  // where it stands, and how near a bead is that it moves [m]
   std::array<Probe, 3> probes_{};
   Forces beads_, walls_;
   BeadWork work_, second_kick_;  // the second kick of a step is given with the next one

@@ -27,7 +27,7 @@ std::vector<double> void_fraction(const std::vector<double>& solid_fraction) {
 CoupledRun::CoupledRun(const CouplingSettings& settings, const BeadSettings& beads, const BeadState& mobile,
                        const std::vector<double>& frozen_positions, const FluidSettings& fluid,
                        const std::vector<double>& alpha)
-    : settings_(settings), fluid_settings_(fluid), mapping_(fluid.cells, fluid.spacing) {
+    : settings_(settings), fluid_settings_(fluid), mapping_(fluid.cells, fluid.spacing, fluid.obstacles) {
   beads_ = std::make_unique<BeadEngine>(beads, mobile, frozen_positions);
   if (settings_.closed_gate) {
     mapping_.set_gate(*settings_.closed_gate,

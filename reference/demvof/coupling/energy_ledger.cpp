@@ -48,7 +48,7 @@ EnergyTerms EnergyLedger::totals() const {
   // What the contacts took and do not hold.
   t.contacts = -work.contacts - elastic.beads;
   t.gate = work.gate_drive;
-  t.walls = work.gate_drive - work.walls - work.gate - elastic.walls;
+  t.walls = work.gate_drive - work.walls - work.surfaces - elastic.walls;
   const double pressure = run_.pressure_work();
   t.drag = -(work.drag + work.force - pressure) - on_fluid.drag;
   t.drag_mean = run_.mean_slip_work();

@@ -23,7 +23,7 @@ struct EnergyTerms {
   double elastic = 0.0;    // normal springs of the contacts
 
   double contacts = 0.0;        // dissipated between beads, frozen ones included: friction and collisions
-  double walls = 0.0;           // dissipated at planes and plate
+  double walls = 0.0;           // dissipated at planes, obstacles and plate
   double drag = 0.0;            // taken from the beads less given to the fluid
   double drag_mean = 0.0;       // of which on the mean motion of the beads; the rest is on their agitation
   double viscosity = 0.0;       // of the fluid, LES included
@@ -59,7 +59,7 @@ inline constexpr std::array energy_terms{
     EnergyTerm{"lost_contacts", &EnergyTerms::contacts,
                "dissipated between grains so far, friction and collisions"},
     EnergyTerm{"lost_walls", &EnergyTerms::walls,
-               "dissipated between grains and planes, and the gate's plate, so far"},
+               "dissipated between grains and planes, obstacles and the gate's plate, so far"},
     EnergyTerm{"lost_drag", &EnergyTerms::drag, "dissipated by drag so far"},
     EnergyTerm{"part_drag_mean", &EnergyTerms::drag_mean, "of lost_drag, on the mean motion of the grains"},
     EnergyTerm{"lost_viscosity", &EnergyTerms::viscosity,

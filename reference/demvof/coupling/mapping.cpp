@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace demvof {
 
@@ -22,9 +26,10 @@ Pair around(double position, double spacing, int cells) {
 
 }  // namespace
 
-Mapping::Mapping(std::array<int, 3> cells, const Vector& spacing)
+Mapping::Mapping(std::array<int, 3> cells, const Vector& spacing, std::vector<char> obstacles)
     : cells_(cells),
       spacing_(spacing),
+      obstacles_(std::move(obstacles)),
       cell_count_(static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) *
                   static_cast<std::size_t>(cells[2])),
       corners_(cells[2] > 1 ? 8 : 4) {}
@@ -62,7 +67,27 @@ void Mapping::update(const std::vector<double>& position) {
       index_[out] = (k * cells_[1] + j) * cells_[0] + i;
       weight_[out++] = w;
     }
+    if (!obstacles_.empty()) keep_out_of_obstacles(bead, &position[3 * bead]);
   }
+}
+
+void Mapping::keep_out_of_obstacles(std::size_t bead, const double* position) {
+  std::size_t own = 0, stride = 1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const int cell = cells_[d] == 1 ? 0 : static_cast<int>(std::floor(position[d] / spacing_[d]));
+    own += stride * static_cast<std::size_t>(std::clamp(cell, 0, cells_[d] - 1));
+    stride *= static_cast<std::size_t>(cells_[d]);
+  }
+  if (obstacles_[own] != 0)
+    throw std::runtime_error(fmt::format("a bead is inside an obstacle, at ({:.6g}, {:.6g}, {:.6g}) m",
+                                         position[0], position[1], position[2]));
+  const auto corners = static_cast<std::size_t>(corners_), first = bead * corners;
+  double open = 0.0;
+  for (std::size_t n = first; n < first + corners; ++n) {
+    if (obstacles_[static_cast<std::size_t>(index_[n])] != 0) weight_[n] = 0.0;
+    open += weight_[n];
+  }
+  for (std::size_t n = first; n < first + corners; ++n) weight_[n] /= open;
 }
 
 void Mapping::deposit(const std::vector<double>& values, int stride, int offset,

@@ -25,10 +25,11 @@ tmp<volVectorField> predict_pressure_gradient(Fluid::Fields& f, double dt, const
   volVectorField force("beadForce", f.force);
   volScalarField drag("beadDrag", f.drag);
   forAll(velocity, cell) {
-    const auto c = static_cast<std::size_t>(cell);
-    velocity[cell] = vector(beads.velocity[0][c], beads.velocity[1][c], beads.velocity[2][c]);
-    force[cell] = vector(beads.force[0][c], beads.force[1][c], beads.force[2][c]);
-    drag[cell] = beads.drag_coefficient[c];
+    velocity[cell] = vector(f.of_cell(beads.velocity[0], cell), f.of_cell(beads.velocity[1], cell),
+                            f.of_cell(beads.velocity[2], cell));
+    force[cell] = vector(f.of_cell(beads.force[0], cell), f.of_cell(beads.force[1], cell),
+                         f.of_cell(beads.force[2], cell));
+    drag[cell] = f.of_cell(beads.drag_coefficient, cell);
   }
   velocity.correctBoundaryConditions();
   force.correctBoundaryConditions();

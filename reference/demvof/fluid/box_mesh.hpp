@@ -1,4 +1,4 @@
-// A box of equal cells as an OpenFOAM mesh, built in memory.
+// A box of equal cells, less those that obstacles fill, as an OpenFOAM mesh, built in memory.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,12 @@
 
 namespace demvof {
 
-// Cell (i, j, k) gets the label (k ny + j) nx + i. Patches: left, right, bottom, top, front, back in this
-// order; an `empty` front and back make the mesh two-dimensional.
+// Where in the tank each cell of the mesh lies: (k ny + j) nx + i, ascending. Without obstacles its own
+// label.
+Foam::labelList places_of_cells(const FluidSettings& settings);
+
+// Patches: left, right, bottom, top, front, back in this order, then the obstacles' faces if there are any;
+// an `empty` front and back make the mesh two-dimensional.
 std::unique_ptr<Foam::fvMesh> make_box_mesh(const FluidSettings& settings, const Foam::Time& time);
 
 }  // namespace demvof

@@ -43,8 +43,9 @@ void Fluid::set_gate(int face, const std::vector<double>& open) {
   const labelList& owner = f.mesh.owner();
   const labelList& neighbour = f.mesh.neighbour();
   forAll(owner, i) {
-    if (neighbour[i] == owner[i] + 1 && nx > 1 && owner[i] % nx == face - 1) {
-      f.open[i] = open[static_cast<std::size_t>((owner[i] / nx) % ny)];
+    const label left = f.places[owner[i]], right = f.places[neighbour[i]];
+    if (right == left + 1 && nx > 1 && left % nx == face - 1) {
+      f.open[i] = open[static_cast<std::size_t>((left / nx) % ny)];
     }
   }
 }
@@ -60,10 +61,10 @@ void Fluid::step(double dt, const BeadLoad& load) {
     f.alpha.oldTime();
     scalarField& eps = f.eps.primitiveFieldRef();
     forAll(eps, cell) {
-      const auto c = static_cast<std::size_t>(cell);
-      eps[cell] = load.void_fraction[c];
-      f.drag[cell] = load.drag_coefficient[c];
-      f.force[cell] = vector(load.force[0][c], load.force[1][c], load.force[2][c]);
+      eps[cell] = f.of_cell(load.void_fraction, cell);
+      f.drag[cell] = f.of_cell(load.drag_coefficient, cell);
+      f.force[cell] = vector(f.of_cell(load.force[0], cell), f.of_cell(load.force[1], cell),
+                             f.of_cell(load.force[2], cell));
     }
     f.eps.correctBoundaryConditions();
     f.force.correctBoundaryConditions();
@@ -89,8 +90,8 @@ std::array<std::vector<double>, 3> Fluid::predict_pressure_gradient(double dt, c
     std::array<std::vector<double>, 3> values;
     for (int d = 0; d < 3; ++d) {
       values[d].resize(beads.drag_coefficient.size());
-      for (std::size_t c = 0; c < values[d].size(); ++c) {
-        values[d][c] = gradient[static_cast<label>(c)][static_cast<direction>(d)];
+      forAll(gradient, cell) {
+        fields_->of_cell(values[d], cell) = gradient[cell][static_cast<direction>(d)];
       }
     }
     return values;
@@ -101,27 +102,25 @@ std::array<std::vector<double>, 3> Fluid::predict_pressure_gradient(double dt, c
 
 void Fluid::refresh_view() {
   const Fields& f = *fields_;
-  const auto n = static_cast<std::size_t>(f.mesh.nCells());
+  const auto n = static_cast<std::size_t>(f.settings.cells[0] * f.settings.cells[1] * f.settings.cells[2]);
   view_.alpha.resize(n);
   view_.pressure.resize(n);
   for (int d = 0; d < 3; ++d) {
     view_.velocity[d].resize(n);
     view_.pressure_gradient[d].resize(n);
   }
-  for (std::size_t c = 0; c < n; ++c) {
-    const auto cell = static_cast<label>(c);
-    view_.alpha[c] = f.alpha[cell];
-    view_.pressure[c] = f.p_rgh[cell] + f.rho[cell] * f.gh[cell];
+  forAll(f.places, cell) {
+    f.of_cell(view_.alpha, cell) = f.alpha[cell];
+    f.of_cell(view_.pressure, cell) = f.p_rgh[cell] + f.rho[cell] * f.gh[cell];
     for (int d = 0; d < 3; ++d) {
-      view_.velocity[d][c] = f.U[cell][static_cast<direction>(d)];
-      view_.pressure_gradient[d][c] = f.grad_p[cell][static_cast<direction>(d)];
+      f.of_cell(view_.velocity[d], cell) = f.U[cell][static_cast<direction>(d)];
+      f.of_cell(view_.pressure_gradient[d], cell) = f.grad_p[cell][static_cast<direction>(d)];
     }
   }
 
   courant_ = courant_liquid_ = 0.0;
   const scalarField flux(fvc::surfaceSum(mag(f.phi))().primitiveField());
-  for (std::size_t c = 0; c < n; ++c) {
-    const auto cell = static_cast<label>(c);
+  forAll(f.places, cell) {
     const double rate = 0.5 * flux[cell] / (f.eps[cell] * f.cell_volume());
     courant_ = std::max(courant_, rate);
     if (f.alpha[cell] > 1e-3) courant_liquid_ = std::max(courant_liquid_, rate);

@@ -33,8 +33,11 @@ enum class MomentumConvection { upwind, van_leer };
 struct FluidSettings {
   std::array<int, 3> cells{{1, 1, 1}};  // nx, ny, nz; cell (i, j, k) has index (k ny + j) nx + i
   Vector spacing{};                     // [m]
-  double gravity = 9.81;                // [m/s2], >= 0
-  double inclination = 0.0;             // of the floor, down towards +x [degrees]
+  // 1 in the cells that obstacles fill, closed to the fluid, which sticks to them; empty where there are
+  // none. What is handed in or out of such a cell says nothing: 0.
+  std::vector<char> obstacles;
+  double gravity = 9.81;                                 // [m/s2], >= 0
+  double inclination = 0.0;                              // of the floor, down towards +x [degrees]
   double gas_density = 1.0, liquid_density = 1000.0;     // [kg/m3]
   double gas_viscosity = 1e-5, liquid_viscosity = 1e-3;  // [Pa s]
   bool large_eddy = true;                                // mu_t of eq (10)

@@ -23,7 +23,7 @@ struct PatchTypes {
 };
 
 wordList patch_types(const FluidSettings& s, const PatchTypes& types) {
-  wordList list(6);
+  wordList list(s.obstacles.empty() ? 6 : 7, types.no_slip);
   for (int side = 0; side < 6; ++side) {
     switch (s.sides[side]) {
       case FluidSide::no_slip:
@@ -58,9 +58,10 @@ volScalarField scalar_field(const char* name, const fvMesh& mesh, const dimensio
 }
 
 template <typename Values>
-volScalarField filled(const char* name, const fvMesh& mesh, const wordList& types, const Values& values) {
+volScalarField filled(const char* name, const fvMesh& mesh, const wordList& types, const labelList& places,
+                      const Values& values) {
   volScalarField field(scalar_field(name, mesh, dimless, types));
-  forAll(field, cell) field[cell] = values[static_cast<std::size_t>(cell)];
+  forAll(field, cell) field[cell] = values[static_cast<std::size_t>(places[cell])];
   field.correctBoundaryConditions();
   return field;
 }
@@ -83,16 +84,40 @@ dictionary control() {
 }
 
 // From the top down, face by face, as the pressure equation balances it: what is written before the first
-// step is then a pressure, and the first step does not ring.
+// step is then a pressure, and the first step does not ring. What obstacles cover has it from beside.
 void start_from_hydrostatic_pressure(Fluid::Fields& f) {
-  const label nx = f.settings.cells[0], ny = f.settings.cells[1], nz = f.settings.cells[2];
-  for (label k = 0; k < nz; ++k)
-    for (label j = ny - 2; j >= 0; --j)
-      for (label i = 0; i < nx; ++i) {
-        const label below = (k * ny + j) * nx + i, above = below + nx;
-        const scalar face = 0.5 * (f.gh[below] + f.gh[above]);
-        f.p_rgh[below] = f.p_rgh[above] + face * (f.rho[above] - f.rho[below]);
-      }
+  const label nx = f.settings.cells[0], ny = f.settings.cells[1];
+  std::vector<char> known(static_cast<std::size_t>(f.mesh.nCells()), 0);
+  DynamicList<label> row;  // cells whose pressure is known, in the order in which they hand it on
+  const auto know = [&](label cell) {
+    known[static_cast<std::size_t>(cell)] = 1;
+    row.append(cell);
+  };
+  const auto is_known = [&](label cell) { return known[static_cast<std::size_t>(cell)] != 0; };
+  const auto hand_on = [&](label from, label to) {
+    const scalar face = 0.5 * (f.gh[to] + f.gh[from]);
+    f.p_rgh[to] = f.p_rgh[from] + face * (f.rho[from] - f.rho[to]);
+    know(to);
+  };
+  labelList cell_at(nx * ny * f.settings.cells[2], -1);
+  forAll(f.places, cell) cell_at[f.places[cell]] = cell;
+  for (label place = cell_at.size() - 1; place >= 0; --place) {
+    if (cell_at[place] < 0) continue;
+    if (place / nx % ny == ny - 1) {
+      know(cell_at[place]);
+    } else if (cell_at[place + nx] >= 0 && is_known(cell_at[place + nx])) {
+      hand_on(cell_at[place + nx], cell_at[place]);
+    }
+  }
+  if (row.empty()) know(0);
+  if (row.size() == f.mesh.nCells()) return;
+  const labelListList& beside = f.mesh.cellCells();
+  for (label next = 0; next < row.size(); ++next) {
+    const label from = row[next];
+    for (const label to : beside[from]) {
+      if (!is_known(to)) hand_on(from, to);
+    }
+  }
 }
 
 }  // namespace
@@ -100,11 +125,12 @@ void start_from_hydrostatic_pressure(Fluid::Fields& f) {
 Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
                       const std::vector<double>& eps0)
     : settings(s),
+      places(places_of_cells(s)),
       folder(quiet(s.scratch_folder)),
       time(control(), fileName(folder.parent()), fileName(folder.name()), "system", "constant", false, false),
       mesh_owner(make_box_mesh(s, time)),
       mesh(*mesh_owner),
-      eps(filled("eps", mesh, patch_types(s, plain), eps0)),
+      eps(filled("eps", mesh, patch_types(s, plain), places, eps0)),
       alpha(scalar_field("alpha", mesh, dimless, patch_types(s, liquid_share))),
       rho(scalar_field("rho", mesh, dimDensity, patch_types(s, plain))),
       U(named("U", mesh), mesh, dimensionedVector("U", dimVelocity, vector::zero), patch_types(s, velocity)),
@@ -126,7 +152,7 @@ Fluid::Fields::Fields(const FluidSettings& s, const std::vector<double>& alpha0,
   gh -= top;
   ghf -= top;
   U.boundaryFieldRef() == vector::zero;
-  forAll(alpha, cell) alpha[cell] = alpha0[static_cast<std::size_t>(cell)];
+  forAll(alpha, cell) alpha[cell] = of_cell(alpha0, cell);
   alpha.correctBoundaryConditions();
   rho = alpha * dimensionedScalar("l", dimDensity, s.liquid_density) +
         (1.0 - alpha) * dimensionedScalar("g", dimDensity, s.gas_density);

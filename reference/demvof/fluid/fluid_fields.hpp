@@ -14,6 +14,7 @@ struct Fluid::Fields {
   Fields(const FluidSettings& s, const std::vector<double>& alpha0, const std::vector<double>& eps0);
 
   FluidSettings settings;
+  Foam::labelList places;  // of the mesh's cells in the tank, see box_mesh.hpp
   CaseFolder folder;
   Foam::Time time;
   std::unique_ptr<Foam::fvMesh> mesh_owner;
@@ -42,6 +43,11 @@ struct Fluid::Fields {
     const double angle = settings.inclination * Foam::constant::mathematical::pi / 180.0;
     return {"g", Foam::dimAcceleration,
             settings.gravity * Foam::vector(std::sin(angle), -std::cos(angle), 0)};
+  }
+  // Value of a cell of the mesh among those of all cells of the tank.
+  template <typename Values>
+  auto& of_cell(Values& values, Foam::label cell) const {
+    return values[static_cast<std::size_t>(places[cell])];
   }
   double cell_volume() const { return settings.spacing[0] * settings.spacing[1] * settings.spacing[2]; }
 };

@@ -68,8 +68,10 @@ Column prepare_column(const ColumnSettings& s) {
     const double x = s.floor[n] - s.lower[0];
     // Also those that reach under the column from beside it: it must not stand in them when the gate is
     // closed.
-    if (x > -d && x < length + d)
-      floor.insert(floor.end(), {x, s.floor[n + 1] - s.lower[1], s.floor[n + 2] - s.lower[2]});
+    // Those of obstacles are at their heights.
+    const double y = s.floor[n + 1] - s.lower[1];
+    if (x > -d && x < length + d && std::abs(y) < d)
+      floor.insert(floor.end(), {x, y, s.floor[n + 2] - s.lower[2]});
   }
 
   Column column;

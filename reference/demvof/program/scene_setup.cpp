@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reference/demvof/preparation/rough_floor.hpp"
+#include "reference/demvof/program/obstacle_setup.hpp"
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/printable.hpp"
 #include "solver/scene/scales.hpp"
@@ -70,8 +71,20 @@ ContactLaw run_law(const Scene& scene) {
   law.bead_friction = r.bead_friction;
   law.rolling_friction = r.bead_rolling_friction;
   law.wall_friction = slippery_for_beads(scene) ? 0.0 : r.wall_friction;
+  law.obstacle_friction = r.wall_friction;  // grains stick to them beside walls on which they slip, too
   law.gate_friction = slippery_for_beads(scene) && r.gate_friction == r.wall_friction ? 0.0 : r.gate_friction;
   return law;
+}
+
+// On that of the tank, or on an obstacle.
+bool stands_on_a_floor(const Scene& scene) {
+  const granvof::Box& bed = scene.bed->box;
+  const double d = bead_diameter(scene);
+  return bed.lower[1] < d ||
+         std::any_of(scene.obstacles.begin(), scene.obstacles.end(), [&](const granvof::Box& box) {
+           return std::abs(bed.lower[1] - box.upper[1]) < d && box.lower[0] < bed.upper[0] &&
+                  box.upper[0] > bed.lower[0];
+         });
 }
 
 // Share of [from, to] inside [lower, upper].
@@ -155,7 +168,7 @@ void check_scene(const Scene& scene) {
       if (v != 0.0) refuse(scene, "a wall moves, allowed: walls at rest");
     }
   }
-  if (!scene.obstacles.empty()) refuse(scene, "it has obstacles, allowed: a tank without");
+  if (const std::string why = obstacles_refused(with_reference_grid(scene)); !why.empty()) refuse(scene, why);
   if (bead_diameter(scene) > scene.reference->cell) {
     refuse(
         scene,
@@ -211,6 +224,7 @@ FluidSettings fluid_settings(const Scene& scene, const std::string& scratch) {
   for (std::size_t s = 0; s < 6; ++s) {
     f.sides[s] = flat(scene) && s >= 4 ? FluidSide::empty : fluid_side(scene.sides[s]);
   }
+  f.obstacles = obstacles_on(with_reference_grid(scene)).closed;
   f.scratch_folder = scratch;
   return f;
 }
@@ -229,6 +243,7 @@ BeadSettings bead_settings(const Scene& scene, const std::string& scratch) {
     b.gate = scene.gate->position;
     b.gate_height = scene.bed->box.upper[1] + 4.0 * b.diameter;
   }
+  b.obstacles = obstacles_on(with_reference_grid(scene));
   b.scratch_folder = scratch;
   return b;
 }
@@ -264,9 +279,22 @@ ColumnSettings column_settings(const Scene& scene, unsigned seed, const std::vec
 }
 
 std::vector<double> floor_beads(const Scene& scene, unsigned seed) {
-  const bool on_floor = scene.bed->box.lower[1] < bead_diameter(scene);
-  if (scene.reference->floor != granvof::ReferenceFloor::rough || !on_floor) return {};
-  return rough_floor({scene.tank[0], depth_of(scene), flat(scene)}, bead_diameter(scene), seed);
+  const double d = bead_diameter(scene);
+  if (scene.reference->floor != granvof::ReferenceFloor::rough || !stands_on_a_floor(scene)) return {};
+  if (scene.obstacles.empty()) return rough_floor({scene.tank[0], depth_of(scene), flat(scene)}, d, seed);
+  std::vector<double> beads;
+  const auto cover = [&](const granvof::Vec3& lower, const granvof::Vec3& upper, double height) {
+    const double depth = flat(scene) ? depth_of(scene) : upper[2] - lower[2];
+    const std::vector<double> floor = rough_floor({upper[0] - lower[0], depth, flat(scene)}, d, seed);
+    for (std::size_t n = 0; n + 2 < floor.size(); n += 3) {
+      const double at[] = {lower[0] + floor[n], height + floor[n + 1],
+                           (flat(scene) ? 0.0 : lower[2]) + floor[n + 2]};
+      if (!inside_an_obstacle(scene, at)) beads.insert(beads.end(), std::begin(at), std::end(at));
+    }
+  };
+  cover({0.0, 0.0, 0.0}, scene.tank, 0.0);
+  for (const granvof::Box& box : scene.obstacles) cover(box.lower, box.upper, box.upper[1]);
+  return beads;
 }
 
 std::vector<double> initial_alpha(const Scene& scene, const FluidSettings& fluid) {

@@ -16,7 +16,7 @@ void check_beads(const granvof::Scene& scene);
 
 // The same, and for what else demvof does not compute, naming the key: a scene without a bed,
 // periodic or moving walls, a sloping bed, beads larger than the
-// fluid's cells, a slice thinner than two beads.
+// fluid's cells, a slice thinner than two beads, obstacles that do not suit the fluid's cells.
 void check_scene(const granvof::Scene& scene);
 
 // Diameter of a bead: that of the grains, times reference.coarse_graining [m].
@@ -30,7 +30,8 @@ FluidSettings fluid_settings(const granvof::Scene& scene, const std::string& scr
 BeadSettings bead_settings(const granvof::Scene& scene, const std::string& scratch);
 ColumnSettings column_settings(const granvof::Scene& scene, unsigned seed, const std::vector<double>& floor,
                                const std::string& scratch);
-// Frozen beads of the rough floor; none for a smooth one, or where the bed does not stand on the floor.
+// Frozen beads of the rough floor, and of the upper sides of obstacles; none for a smooth one, or where the
+// bed stands on neither.
 std::vector<double> floor_beads(const granvof::Scene& scene, unsigned seed);
 // Liquid share of each cell at the start [-].
 std::vector<double> initial_alpha(const granvof::Scene& scene, const FluidSettings& fluid);

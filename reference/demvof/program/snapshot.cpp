@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/demvof/program/obstacle_setup.hpp"
 #include "solver/scene/gravity.hpp"
 
 namespace demvof {
@@ -94,21 +95,26 @@ std::optional<double> floor_slip(const BeadState& beads, double diameter, double
 double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene) {
   double level = 0.0;
   for (const granvof::Box& box : scene.liquid_boxes) level = std::max(level, box.upper[1]);
-  const double y = 0.5 * scene.grid.spacing[1];
-  const double own = level > 0.0 ? scene.liquid.density * granvof::normal_gravity(scene) * (level - y) : 0.0;
+  const Obstacles obstacles = obstacles_on(scene);
   const std::vector<double>& pressure = run.fluid().view().pressure;
   const int first = static_cast<int>(std::lround(scene.bed->box.lower[0] / scene.grid.spacing[0]));
   const int last =
       std::max(first + 1, static_cast<int>(std::lround(scene.bed->box.upper[0] / scene.grid.spacing[0])));
-  const auto layer =
-      static_cast<std::size_t>(scene.grid.cells[0]) * static_cast<std::size_t>(scene.grid.cells[1]);
-  double sum = 0.0;
-  for (int k = 0; k < scene.grid.cells[2]; ++k) {
+  const auto [nx, ny, nz] = scene.grid.cells;
+  double sum = 0.0, columns = 0.0;
+  for (int k = 0; k < nz; ++k) {
     for (int i = first; i < last; ++i) {
-      sum += pressure[static_cast<std::size_t>(k) * layer + static_cast<std::size_t>(i)] - own;
+      int j = 0;
+      while (obstacles.fill({i, j, k})) ++j;
+      if (j == ny) continue;
+      const double y = (j + 0.5) * scene.grid.spacing[1];
+      const double own =
+          level > y ? scene.liquid.density * granvof::normal_gravity(scene) * (level - y) : 0.0;
+      sum += pressure[static_cast<std::size_t>((k * ny + j) * nx + i)] - own;
+      columns += 1.0;
     }
   }
-  return sum / ((last - first) * scene.grid.cells[2]);
+  return sum / columns;
 }
 
 }  // namespace demvof

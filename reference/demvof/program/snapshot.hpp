@@ -22,8 +22,8 @@ double bed_top(const BeadState& beads, double diameter);
 // beads that have left the initial bed, x > from; how far the floor lets the lowest layer slide. None where
 // nothing moves. [-]
 std::optional<double> floor_slip(const BeadState& beads, double diameter, double from);
-// Pressure along the floor cells under the bed's initial length, in excess of the liquid's own weight
-// rho_l g (level - y) [Pa].
+// Pressure along the floor cells under the bed's initial length, on the floor or an obstacle that stands on
+// it, in excess of the liquid's own weight rho_l g (level - y) [Pa].
 double excess_base_pressure(const CoupledRun& run, const granvof::Scene& scene);
 
 }  // namespace demvof
