@@ -169,7 +169,6 @@ class Lack {
     const Layout& l = grid_.cells;
     const std::ptrdiff_t s = grid_.stride(vertical);
     linear::Faces faces;
-    double largest = 0.0;
     for (int d = 0; d < grid_.dim; ++d) {
       const Field &step = step_[d], &response = response_[d];
       faces.lower[d] = response.data();
@@ -177,7 +176,7 @@ class Lack {
         const std::ptrdiff_t c = l.index(at);
         rhs_[c] += response[c] * step[c];
         rhs_[c - grid_.stride(d)] -= response[c] * step[c];
-        largest = std::max(largest, std::fabs(response[c] * step[c]));
+        largest_ = std::max(largest_, std::fabs(response[c] * step[c]));
       });
     }
     // A guess by columns, which is all where they agree.
@@ -191,7 +190,7 @@ class Lack {
       });
     }
     linear::ScalarSolver(l, grid_.h)
-        .solve(faces, mass_.data(), rhs_.data(), lack_.data(), {rounding * largest, 0.0, most_iterations});
+        .solve(faces, mass_.data(), rhs_.data(), lack_.data(), {rounding * largest_, 0.0, most_iterations});
     return std::move(lack_);
   }
 
@@ -234,6 +233,7 @@ class Lack {
         if (d != vertical || !upper) return;
         lack_[c] = 0.5 * (mass - inside) / f_c * normal_gravity(scene_) * grid_.h[d];
         rhs_[c] += response * lack_[c];
+        largest_ = std::max(largest_, std::fabs(response * lack_[c]));
         any_ = any_ || lack_[c] != 0.0;
       });
     });
@@ -244,6 +244,7 @@ class Lack {
   FaceField step_;      // of the pressure across a face, from below to above [Pa]
   FaceField response_;  // of the fluid's flux to a step
   Field mass_, rhs_, lack_;
+  double largest_ = 0.0;  // of what drives a flow, by magnitude
   bool any_ = false;
 };
 
