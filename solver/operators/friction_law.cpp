@@ -4,6 +4,8 @@
 
 #include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/contact_friction.hpp"
+#include "solver/closures/critical_packing/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/friction.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/closures/drag/drag.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
 
 namespace granvof {
 namespace {

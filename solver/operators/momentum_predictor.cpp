@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/operators/convection.hpp"
 #include "solver/operators/mass_consistent_convection.hpp"
 #include "solver/scene/gravity.hpp"

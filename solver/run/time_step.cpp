@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/operators/continuity_closure.hpp"
 #include "solver/operators/packing.hpp"
 #include "solver/operators/solid_transport.hpp"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
