@@ -176,6 +176,8 @@ struct Numerics {
   double volume_tolerance = 1e-6;  // largest volume error of a cell in one step, as a fraction of the cell
   double linear_tolerance = 1e-3;  // residual reduction of one linear solve inside Newton
   int newton_max = 30;
+
+  bool has_part_cells() const { return bed_surface == BedSurface::part_cells; }
   bool operator==(const Numerics&) const = default;
 };
 
