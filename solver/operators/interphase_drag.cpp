@@ -16,6 +16,11 @@ constexpr double least_moving = 0.05;
 
 }  // namespace
 
+void InterphaseDrag::clear() {
+  for (int d = 0; d < grid_.dim; ++d) beta_[d].fill(0.0);
+  of_cells_.fill(0.0);
+}
+
 void InterphaseDrag::update(const Boundary& boundary, const State& now, const FaceInertia& inertia,
                             const Rheology& rheology) {
   if (!scene_.model.drag) return;  // beta_ stays zero
