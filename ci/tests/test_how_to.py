@@ -89,7 +89,7 @@ def test_the_closure_passes_its_test(tmp_path):
     header, line, test = blocks("closure.md", "cpp")
     listed = (ROOT / "solver/closures/drag/laws.hpp").read_text(encoding="utf-8")
     mine = '#include "solver/closures/drag/stokes.hpp"\n'
-    changed = re.sub(r"using DragLaws = [^;]*;\n", line, listed).replace("#pragma once\n", f"#pragma once\n{mine}")
+    changed = re.sub(r"struct DragLaws : [^;]*;\n", line, listed).replace("#pragma once\n", f"#pragma once\n{mine}")
     for name, text in ((header.split()[1], header), ("solver/closures/drag/laws.hpp", changed), (test.split()[1], test)):
         file = tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -107,7 +107,7 @@ def test_a_further_choice_of_each_list_is_a_header_and_a_line(tmp_path):
     assert all(f"closures/{laws.parent.name}/laws.hpp)" in page for laws in lists), "the page does not have every list"
     for laws in lists:
         text = laws.read_text(encoding="utf-8")
-        line, choices, first = re.search(r"using \w+ =\s+(Choices<((\w+)[^>]*)>);", text).group(0, 2, 3)
+        line, choices, first = re.search(r"struct \w+ :\s+(Choices<((\w+)[^>]*)>) {};", text).group(0, 2, 3)
         folder = tmp_path / laws.parent.relative_to(ROOT)
         folder.mkdir(parents=True)
         (folder / "another.hpp").write_text(

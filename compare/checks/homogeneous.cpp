@@ -53,7 +53,7 @@ double ergun_and_wen_yu(double f_s, double w, const Fluid& fluid, double d) {
 // g0 at contact: (19), or of spheres that jam (Chialvo and Sundaresan 2013).
 double contacts_to_be(const Scene& scene, double f) {
   const double most = scene.contact.solid_fraction_max;
-  if (scene.model.radial_distribution.facts().word == "paper")
+  if (word_of(scene.model.radial_distribution) == "paper")
     return (1.0 - 7.0 * f / 16.0) / std::pow(1.0 - f / most, 2);
   return (1.0 - f / 2.0) / std::pow(1.0 - f, 3) +
          (0.58 + 3.12 * std::tanh(scene.solid.friction / 0.54)) * f * f / std::pow(most - f, 1.5);
@@ -74,7 +74,7 @@ double collisional_viscosity(const Scene& scene, double f, double theta, double 
   const double g0 = contacts_to_be(scene, f),
                unit = scene.solid.density * scene.solid.diameter * std::sqrt(theta),
                collided = 0.8 * f * f * g0 * (1.0 + e) / std::sqrt(pi);
-  if (scene.model.kinetic_transport.facts().word == "collisional") return unit * collided;
+  if (word_of(scene.model.kinetic_transport) == "collisional") return unit * collided;
   const double flown = f * f * g0 * (1.0 + e) * (3.0 * e - 1.0) / 15.0 + f / 6.0;
   return unit * (collided + std::max(flown, 0.0) * std::sqrt(pi) / (3.0 - e));
 }
@@ -86,7 +86,7 @@ double friction_coefficient(const Scene& scene, double pressure, double shear) {
   const auto between = [&](double number, double half) {
     return solid.friction + (contact.fast_friction - solid.friction) / (1.0 + half / number);
   };
-  const std::string_view law = scene.model.friction_law.facts().word;
+  const std::string_view law = word_of(scene.model.friction_law);
   if (law == "inertial")
     return between(shear * solid.diameter / std::sqrt(pressure / solid.density), contact.inertial_number);
   if (law == "viscous") return between(scene.liquid.viscosity * shear / pressure, contact.viscous_number);
@@ -106,7 +106,7 @@ double friction_of_agitation(const Scene& scene, double f, double pressure, doub
 double touching(const Scene& scene, double f) {
   const Contact& c = scene.contact;
   if (scene.model.shear_dilatancy) return c.critical_solid_fraction;
-  return closures::is_carried(scene.model.packing) ? std::max(f, c.solid_fraction_min) : c.solid_fraction_min;
+  return word_of(scene.model.packing) == "carried" ? std::max(f, c.solid_fraction_min) : c.solid_fraction_min;
 }
 
 // P_s^ES of (13).
@@ -130,7 +130,7 @@ double dense(const Scene& scene, double f, double theta, double e) {
 double printed_drag(const Scene& scene, double f_s, double slip) {
   const Fluid& fluid = scene.liquid;
   const double d = scene.solid.diameter, f_c = 1.0 - f_s;
-  const std::string_view law = scene.model.drag_law.facts().word;
+  const std::string_view law = word_of(scene.model.drag_law);
   if (law == "paper") return ergun_and_wen_yu(f_s, slip, fluid, d);
   const double force = force_on_grain(law, f_s, fluid.density * f_c * slip * d / fluid.viscosity);
   const double grains = 6.0 * f_s / (pi * d * d * d);  // in a volume
@@ -148,8 +148,8 @@ std::optional<double> printed_settling_slip(const Scene& scene) {
 std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   const Model& model = scene.model;
   const double speed = scene.sides[top].velocity[0] - scene.sides[bottom].velocity[0];
-  if (!scene.bed || speed <= 0.0 || !closures::is_transported(model.granular_temperature) ||
-      model.correlated_collisions || closures::depends_on_rate(model.critical_packing))
+  if (!scene.bed || speed <= 0.0 || word_of(model.granular_temperature) != "transported" ||
+      model.correlated_collisions || word_of(model.critical_packing) == "by-rate")
     return std::nullopt;
   const Solid& solid = scene.solid;
   const double high = scene.bed->box.upper[1] - scene.bed->box.lower[1];

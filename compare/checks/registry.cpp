@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "compare/checks/last_instant.hpp"
+#include "compare/checks/of_a_curve.hpp"
 #include "compare/checks/start_state.hpp"
 #include "compare/checks/whole_run.hpp"
 #include "compare/input/curves.hpp"
@@ -21,7 +22,6 @@
 #include "compare/metrics/run_out.hpp"
 #include "compare/metrics/series_difference.hpp"
 #include "compare/metrics/toe_drift.hpp"
-#include "solver/scene/gravity.hpp"
 
 namespace granvof::compare {
 
@@ -146,57 +146,7 @@ Measured decay_rate_late(const Run& run, const Parameters& p, const FindRun&) {
   return decay_rate_of(run, *p.window, 0.0);
 }
 
-// --- against published series ---------------------------------------------------------------------------
-
-Measured dam_break_distance(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(
-      rms_distance(scaled_liquid_front(run), published_curve(run, *p.published, *p.column), *p.window),
-      "the two curves do not cover the window");
-}
-
-Measured grain_front_distance(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(
-      rms_distance(run.curve("front_dilute"), published_curve(run, *p.published, *p.column), *p.window),
-      "the two curves do not cover the window");
-}
-
-Measured base_pressure_distance(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(
-      rms_distance(excess_base_pressure(run), published_curve(run, *p.published, *p.column), *p.window),
-      "the two curves do not cover the window");
-}
-
-Measured solid_level_distance(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(rms_distance(solid_level_curve(run, *p.level),
-                               published_curve(run, *p.published, *p.column), *p.window),
-                  "the two curves do not cover the window");
-}
-
-// --- values of a curve at a time ------------------------------------------------------------------------
-
-Curve grain_front_curve(const Run& run) {
-  return run.curve("front_dilute");
-}
-
-Measured grain_front_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(grain_front_curve(run), *p.at), "no grain front at that time");
-}
-
-Measured solid_height_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run.curve("y_solid_mean"), *p.at), "no solids at that time");
-}
-
-Measured liquid_height_at(const Run& run, const Parameters& p, const FindRun&) {
-  const auto energy = value_at(run.curve("potential_energy_liquid"), *p.at),
-             volume = value_at(run.curve("liquid_volume"), *p.at);
-  const double weight = run.scene.liquid.density * normal_gravity(run.scene);
-  if (!energy || !volume || *volume <= 0.0 || weight <= 0.0) return {std::nullopt, "no liquid at that time"};
-  return {*energy / (weight * *volume), ""};
-}
-
-Measured solid_volume_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run.curve("solid_volume"), *p.at), "no solids at that time");
-}
+// --- shares of a window ----------------------------------------------------------------------------------
 
 Measured energy_share(const Run& run, const Parameters& p, const FindRun&) {
   if (!run.scene.bed) return {std::nullopt, "undefined: no column"};
@@ -205,24 +155,8 @@ Measured energy_share(const Run& run, const Parameters& p, const FindRun&) {
                   "no energy budget in the series, or nothing released in the window");
 }
 
-Measured granular_temperature_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run.curve("theta_max"), *p.at), "no grains at that time");
-}
-
-Measured kinetic_energy_of_grains(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run.curve("kinetic_energy_solid"), *p.at), "no grains at that time");
-}
-
 Measured power(const Run& run, const Parameters& p, const FindRun&) {
   return measured(power_of(run, *p.term, *p.window), "no energy budget in the series, or not all the window");
-}
-
-Measured interface_height_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(run.curve("interface_height"), *p.at), "no interface at that time");
-}
-
-Measured liquid_front_at(const Run& run, const Parameters& p, const FindRun&) {
-  return measured(value_at(scaled_liquid_front(run), *p.at), "no liquid front at that tau");
 }
 
 // --- the same run otherwise stated ------------------------------------------------------------------------

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "solver/closures/kinetic_theory.hpp"
+#include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof::closures {

@@ -36,6 +36,7 @@ Piece piece_of_row(int n, Holds&& holds) {
 }  // namespace
 
 Range box_of_grains(const Grid& grid, const FaceInertia& inertia, double least) {
+  if (!inertia.holds_grains) return {{0, 0, 0}, {0, 0, 0}};
   const int n = grid.cells.n[0];
   // A cell of at least f_s gives its x-faces at least half of that.
   const double least_of_face = 0.5 * least;

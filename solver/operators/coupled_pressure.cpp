@@ -115,7 +115,7 @@ void CoupledPressure::set_response(double dt, const FaceInertia& inertia, const 
 void CoupledPressure::set_fluxes(double dt, const Field& f_s, bool new_directions) {
   for (int d = 0; d < grid_.dim; ++d) {
     const Range faces = grid_.flux_faces(d);
-    if (new_directions) {
+    if (new_directions && holds_grains_) {
       fraction_.face_values(grid_, boundary_.walls(), f_s, us_[d], d, dt, faces, f_upwind_s_[d]);
       fraction_.face_values(grid_, boundary_.walls(), f_s, uc_[d], d, dt, faces, f_upwind_c_[d]);
       boundary_.exchange(f_upwind_s_[d]);
@@ -219,6 +219,7 @@ void CoupledPressure::correct(double dt, const Field& f_s, const FaceField& us_p
 // Largest volume, as a fraction of a cell, by which the fluxes differ from those whose fractions are taken by
 // the present directions of flow.
 double CoupledPressure::turned_flux(double dt, const Field& f_s) {
+  if (!holds_grains_) return 0.0;
   double largest = 0.0;
   for (int d = 0; d < grid_.dim; ++d) {
     const double dt_h = dt / grid_.h[d];
@@ -257,7 +258,12 @@ PressureReport CoupledPressure::solve(double dt, const State& now, const Rheolog
   const Numerics& numerics = scene_.numerics;
   const bool implicit = is_implicit();
   PressureReport report;
+  holds_grains_ = inertia.holds_grains;
   pushed_ = box_of_grains(grid_, inertia, least_pushed());
+  if (!holds_grains_) {
+    for (FaceField* fraction : {&f_upwind_s_, &f_upwind_c_})
+      for (int d = 0; d < grid_.dim; ++d) (*fraction)[d].fill(0.0);
+  }
   if (implicit) {
     extrapolate_points(dt, now.f_s, now.u_s);
   } else {

@@ -71,6 +71,7 @@ class CoupledPressure {
   double load_;  // scale of P_s [Pa], see scales.hpp
   linear::CoupledSolver solver_;
   SolidFractionFlux fraction_;
+  bool holds_grains_ = true;            // of the step, see FaceInertia
   Range pushed_{{0, 0, 0}, {0, 0, 0}};  // cells whose P_s moves grains; the second row is theirs
 
   // 2x2 response of a face: [du_s; du_c] = -response [grad dP_c; grad dP_s]

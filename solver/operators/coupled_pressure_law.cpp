@@ -114,6 +114,7 @@ void CoupledPressure::set_pressures(double dt, const State& now, const Rheology&
   double *pc = next.p_c.data(), *ps = next.p_s.data();
   for_each(grid_.cells, [=](std::ptrdiff_t c) { pc[c] += dpc[c]; });
   for_each(grid_.cells, pushed_, [=](std::ptrdiff_t c) { ps[c] = std::max(ps[c] + dps[c], 0.0); });
+  if (!holds_grains_) return next.p_s.fill(0.0);
   const bool implicit = is_implicit();
   const double* old = now.f_s.data();
   double* f = f_new_.data();

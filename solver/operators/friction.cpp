@@ -38,7 +38,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
     shear_[p] = Field(grid);
     if (grid.has_bumps() || has_coulomb_walls()) kinetic_edge_[p] = Field(grid);
   }
-  if (scene.numerics.bed_surface == BedSurface::part_cells) {
+  if (scene.numerics.has_part_cells()) {
     mu_vertical_ = Field(grid);
     for (int d = 0; d < grid.dim; d += 2)
       tilting_[plane_index(std::min(d, vertical), std::max(d, vertical))] = Field(grid, 1.0);

@@ -109,6 +109,8 @@ class Friction {
   // Share of the slope of the vertical velocity that shears the grains on the edges of a plane, see
   // free_faces_of_part_cells(); nullptr for all of it.
   const double* tilting(int d, int e) const;
+  // The scene has them: what they alone need was made.
+  bool has_part_cells() const { return !mu_vertical_.empty(); }
   // Viscosity that a normal strain along d meets [Pa s].
   const double* normal_viscosity(int d) const;
   // y = mass u - div(stress of u) where marked, 0 elsewhere; one ghost layer of u must be filled.

@@ -4,6 +4,8 @@
 
 #include "solver/closures/agitation_drag.hpp"
 #include "solver/closures/contact_friction.hpp"
+#include "solver/closures/critical_packing/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/friction.hpp"
 
@@ -25,7 +27,7 @@ struct Contacts {
 
 void Friction::strain_of_contacts(const Rheology& rheology, const FaceField& u, StrainRate& strain) {
   strain.update(grid_, boundary_.walls(), u, box_);
-  if (scene_.numerics.bed_surface == BedSurface::part_cells) free_faces_of_part_cells(rheology, u, strain);
+  if (has_part_cells()) free_faces_of_part_cells(rheology, u, strain);
 }
 
 // Grains in a part of a cell rest on what lies below and rub along it; above they are free. What falls on
@@ -114,7 +116,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
                             std::sqrt(0.5 * sq[c]));
   });
   boundary_.fill_scalar(mu_);
-  if (scene_.numerics.bed_surface == BedSurface::part_cells) {
+  if (has_part_cells()) {
     double* squeezed = mu_vertical_.data();
     const double* held = rheology.part_cells.held.data();
     for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
@@ -164,7 +166,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
       for_each(grid_.cells, edges, [=](std::ptrdiff_t c) {
         edge[c] = viscosity_of_edge(c, [=](std::ptrdiff_t a) { return p[a]; });
       });
-      if (scene_.numerics.bed_surface != BedSurface::part_cells) continue;
+      if (!has_part_cells()) continue;
       // What bears grains feels their weight to its surface, as the tank's own floor and lid do.
       const double* weight = rheology.half_weight.data();
       for (const Obstacles::Edge& o : grid_.obstacles.edges(plane)) {

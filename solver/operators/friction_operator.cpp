@@ -9,13 +9,12 @@ constexpr auto all = [](std::ptrdiff_t) { return 1.0; };
 }  // namespace
 
 const double* Friction::tilting(int d, int e) const {
-  const bool part_cells = scene_.numerics.bed_surface == BedSurface::part_cells;
-  return part_cells && (d == vertical || e == vertical) ? tilting_[plane_index(d, e)].data() : nullptr;
+  const Field& share = tilting_[plane_index(d, e)];
+  return share.empty() ? nullptr : share.data();
 }
 
 const double* Friction::normal_viscosity(int d) const {
-  const bool part_cells = scene_.numerics.bed_surface == BedSurface::part_cells;
-  return part_cells && d == vertical ? mu_vertical_.data() : mu_.data();
+  return has_part_cells() && d == vertical ? mu_vertical_.data() : mu_.data();
 }
 
 void Friction::fill_wall_ghosts(const linear::Components& u, bool moving_walls) const {

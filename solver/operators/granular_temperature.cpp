@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/closures/bumpy_wall.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/closures/kinetic_theory.hpp"
 #include "solver/operators/box_of_grains.hpp"
 #include "solver/operators/flux_balance.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/closures/drag/drag.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
 
 namespace granvof {
 namespace {
@@ -14,6 +15,11 @@ namespace {
 constexpr double least_moving = 0.05;
 
 }  // namespace
+
+void InterphaseDrag::clear() {
+  for (int d = 0; d < grid_.dim; ++d) beta_[d].fill(0.0);
+  of_cells_.fill(0.0);
+}
 
 void InterphaseDrag::update(const Boundary& boundary, const State& now, const FaceInertia& inertia,
                             const Rheology& rheology) {

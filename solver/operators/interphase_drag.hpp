@@ -33,6 +33,8 @@ class InterphaseDrag {
   // the inertia, part-cells with the rheology. A face at a periodic end has its copy at the other.
   void update(const Boundary& boundary, const State& now, const FaceInertia& inertia,
               const Rheology& rheology);
+  // The same without any grains.
+  void clear();
 
   // At cell centres: what agitated grains are dragged by. (A mean over faces depends on how many of them lie
   // across the gradient of f_s: four cells thick another one than in the plane.)

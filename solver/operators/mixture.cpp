@@ -1,11 +1,17 @@
 #include "solver/operators/mixture.hpp"
 
+#include <cmath>
+
+#include "solver/grid/reduce.hpp"
+
 namespace granvof {
 
 void FaceInertia::update(const Grid& grid, const Scene& scene, const Field& f_s_cell, const Field& alpha) {
   const double rho_s = scene.solid.density, rho_l = scene.liquid.density, rho_g = scene.gas.density;
   const double* f = f_s_cell.data();
   const double* a = alpha.data();
+  holds_grains = max_over(grid.cells, grid.cells_and_ghosts(1), 0.0,
+                          [=](std::ptrdiff_t c) { return std::fabs(f[c]); }) != 0.0;
   for (int d = 0; d < grid.dim; ++d) {
     const std::ptrdiff_t s = grid.stride(d);
     double* face = f_s[d].data();

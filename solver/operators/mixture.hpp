@@ -46,6 +46,9 @@ struct FaceInertia {
   FaceField f_s;    // solid fraction on faces [-]
   FaceField solid;  // f_s rho_s [kg/m3]
   FaceField fluid;  // f_c rho_c [kg/m3]
+  // Whether any cell has f_s other than 0, or what waits beyond a side: without grains their part of a step
+  // makes nothing, and is left out.
+  bool holds_grains = true;
 
   explicit FaceInertia(const Grid& grid) : f_s(grid), solid(grid), fluid(grid) {}
   void update(const Grid& grid, const Scene& scene, const Field& f_s_cell, const Field& alpha);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/operators/convection.hpp"
 #include "solver/operators/mass_consistent_convection.hpp"
 #include "solver/scene/gravity.hpp"
@@ -81,20 +82,24 @@ void MomentumPredictor::update(double dt, const State& now, const FaceInertia& i
     fluid_[d] = convective_[d];
     viscosity.add_acceleration(now.u_c, inertia, d, fluid, fluid_[d]);
     viscous_power_ += viscosity.power_on(now.u_c, inertia, d, convective_[d], fluid_[d]);
-    convect_solid(dt, now, inertia, d);
     const double *open = aperture[d].data(), *f = inertia.f_s[d].data(), *m = inertia.fluid[d].data();
-    const double *uc = now.u_c[d].data(), *us = now.u_s[d].data(), *p = now.p_c.data();
-    double *c_star = fluid_[d].data(), *s_star = solid_[d].data();
+    const double *uc = now.u_c[d].data(), *p = now.p_c.data();
+    double* c_star = fluid_[d].data();
     for_each(grid_.cells, fluid, [=](std::ptrdiff_t c) {
       const double pressure = (1.0 - f[c]) * ((p[c] - p[c - s]) * inv_h + outside) / m[c];
       c_star[c] = open[c] * (uc[c] + dt * (c_star[c] + gravity - pressure));
     });
+    weigh_surface(dt, inertia, aperture, d);
+    if (extra != nullptr) add(dt, aperture, extra->fluid, d, fluid, fluid_);
+    boundary_.exchange(fluid_[d]);
+    if (!inertia.holds_grains) continue;
+    convect_solid(dt, now, inertia, d);
+    const double* us = now.u_s[d].data();
+    double* s_star = solid_[d].data();
     for_each(grid_.cells, solid, [=](std::ptrdiff_t c) {
       s_star[c] = open[c] * (us[c] + dt * (s_star[c] + gravity - on_solid));
     });
-    weigh_surface(dt, inertia, aperture, d);
-    if (extra != nullptr) add(dt, aperture, *extra, d);
-    boundary_.exchange(fluid_[d]);
+    if (extra != nullptr) add(dt, aperture, extra->solid, d, solid, solid_);
     boundary_.exchange(solid_[d]);
   }
 }
@@ -106,13 +111,11 @@ void MomentumPredictor::weigh_surface(double dt, const FaceInertia& inertia, con
     fluid_[d][c] += dt * open[c] * (1.0 - f_s[c]) * force / mass[c];
 }
 
-void MomentumPredictor::add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d) {
-  const double *open = aperture[d].data(), *fluid = extra.fluid[d].data(), *solid = extra.solid[d].data();
-  double *c_star = fluid_[d].data(), *s_star = solid_[d].data();
-  for_each(grid_.cells, grid_.fluid_faces(d),
-           [=](std::ptrdiff_t c) { c_star[c] += dt * open[c] * fluid[c]; });
-  for_each(grid_.cells, grid_.inner_faces(d),
-           [=](std::ptrdiff_t c) { s_star[c] += dt * open[c] * solid[c]; });
+void MomentumPredictor::add(double dt, const Aperture& aperture, const FaceField& extra, int d,
+                            const Range& faces, FaceField& predicted) const {
+  const double *open = aperture[d].data(), *source = extra[d].data();
+  double* star = predicted[d].data();
+  for_each(grid_.cells, faces, [=](std::ptrdiff_t c) { star[c] += dt * open[c] * source[c]; });
 }
 
 }  // namespace granvof

@@ -24,7 +24,7 @@ class MomentumPredictor {
   void update(double dt, const State& now, const FaceInertia& inertia, const FluidViscosity& viscosity,
               const Aperture& aperture, const BodyAcceleration* extra);
 
-  // [m/s], zero on closed faces.
+  // [m/s], zero on closed faces; that of the solid stays as it is where there are no grains at all.
   const FaceField& solid() const { return solid_; }
   const FaceField& fluid() const { return fluid_; }
   // For the implicit step of the viscosity, which adds what it does to the fluid.
@@ -41,7 +41,8 @@ class MomentumPredictor {
   void convect_solid(double dt, const State& now, const FaceInertia& inertia, int d);
   void set_fluid_mass(const State& now);
   void weigh_surface(double dt, const FaceInertia& inertia, const Aperture& aperture, int d);
-  void add(double dt, const Aperture& aperture, const BodyAcceleration& extra, int d);
+  void add(double dt, const Aperture& aperture, const FaceField& extra, int d, const Range& faces,
+           FaceField& predicted) const;
 
   const Grid& grid_;
   const Scene& scene_;

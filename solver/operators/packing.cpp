@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/closures/critical_packing/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 
 namespace granvof {

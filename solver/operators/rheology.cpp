@@ -33,7 +33,7 @@ void Rheology::update_viscous_contacts(const Grid& grid, const Scene& scene, con
 
 void Rheology::update(const Grid& grid, const Scene& scene, const closures::SolidLaw& law,
                       const Boundary& boundary, const State& now, const StrainRate& strain) {
-  const bool in_part = scene.numerics.bed_surface == BedSurface::part_cells;
+  const bool in_part = scene.numerics.has_part_cells();
   if (in_part) part_cells.update(grid, scene, now.f_s, now.alpha, now.p_s);
   const Solid solid = scene.solid;
   const Contact contact = scene.contact;

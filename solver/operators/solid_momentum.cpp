@@ -71,6 +71,11 @@ void SolidMomentum::set_balance(double dt, const State& now, const MomentumPredi
     const double *p_c = now.p_c.data(), *p_s = now.p_s.data(), *us = now.u_s[d].data();
     const double *c_star = predicted.fluid()[d].data(), *s_star = predicted.solid()[d].data();
     double *mass = balance_.mass[d].data(), *rhs = balance_.rhs[d].data(), *guess = next.u_s[d].data();
+    if (!inertia.holds_grains) {  // nothing is solved for
+      for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) { guess[c] = open[c] * c_star[c]; });
+      boundary_.exchange(next.u_s[d]);
+      continue;
+    }
     for_each(grid_.cells, grid_.inner_faces(d), [=](std::ptrdiff_t c) {
       const double m_s = solid[c] * inv_dt, m_c = fluid[c] * inv_dt;
       const double beta_eff = beta[c] * m_c / (m_c + beta[c]);

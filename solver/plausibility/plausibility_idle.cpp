@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "solver/closures/critical_packing/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/plausibility/plausibility_rows.hpp"
 #include "solver/scene/complete.hpp"
 #include "solver/scene/keys.hpp"

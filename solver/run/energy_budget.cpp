@@ -58,13 +58,14 @@ EnergyTerms EnergyBudget::stored(const State& s) const {
 
 EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next,
                                   const StepTrace& trace) const {
+  const bool grains = trace.inertia.holds_grains;
   const FaceWork w = work_on_faces(grid_, scene_, boundary_.side_pressure(), dt, now, next, trace);
   const Friction::Power& stress = trace.stress;
   const GranularLosses& granular = trace.granular;
   EnergyTerms t;
   t.kinetic = w.kinetic;
   t.potential = potential_energy(next);
-  t.granular = granular_energy(next);
+  t.granular = grains ? granular_energy(next) : 0.0;
   t.elastic = trace.carried;
 
   t.drag = w.slip + granular.drag;
@@ -74,7 +75,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.outflow = w.potential_out + w.kinetic_out + w.granular_out - w.side_pressure - w.driving -
               dt * (trace.viscous.sides + stress.sides);
   t.walls = dt * (trace.viscous.walls + stress.walls);
-  t.dense_excess = work_of_flow_pressure(dt, now, next, trace) - granular.pressure;
+  t.dense_excess = (grains ? work_of_flow_pressure(dt, now, next, trace) : 0.0) - granular.pressure;
   t.shear_dilatancy = trace.sheared - now.energy.elastic;
 
   t.numerical_time = w.step;
@@ -83,7 +84,8 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.numerical_fluid = w.fluid_transport;
   t.numerical_viscosity = dt * trace.viscous_power - w.viscous;
   t.numerical_stress = dt * (stress.solved_for - stress.on_grains);
-  t.numerical_elastic = -work_of_contacts(dt, now, next, trace) - (trace.carried - trace.sheared);
+  t.numerical_elastic =
+      -(grains ? work_of_contacts(dt, now, next, trace) : 0.0) - (trace.carried - trace.sheared);
   t.numerical_granular = granular.bounds + granular.run_out - granular.spared;
   t.upwind_momentum = dt * trace.predictor.upwind_power();
   t.theta_bounds = granular.bounds;

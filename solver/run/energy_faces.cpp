@@ -24,7 +24,7 @@ class Faces {
 
   FaceWork sums() {
     for (int d = 0; d < grid_.dim; ++d) {
-      add_solid(d);
+      if (trace_.inertia.holds_grains) add_solid(d);
       add_fluid(d, grid_.inner_faces(d),
                 {.weight = 1.0, .inside = 0, .beyond = -grid_.stride(d), .of_side = false});
       add_surface_weight(d);

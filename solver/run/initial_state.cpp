@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/closures/packing/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/run/energy_budget.hpp"

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/operators/continuity_closure.hpp"
 #include "solver/operators/packing.hpp"
 #include "solver/operators/solid_transport.hpp"
@@ -57,12 +58,14 @@ std::span<const TimeStep::Stage> TimeStep::stages() {
       Stage{"transport",
             {&grains_transport, &packing},
             "grains, their colour and packing",
-            &TimeStep::carry_solid},
+            &TimeStep::carry_solid,
+            &TimeStep::holds_grains},
       Stage{"transport", {&interface}, "liquid and gas", &TimeStep::carry_liquid},
       Stage{"granular temperature",
             {&granular_temperature, &kinetic_stress},
             "fed by what the kinetic stress spent",
-            &TimeStep::agitate},
+            &TimeStep::agitate,
+            &TimeStep::holds_grains},
       Stage{"energy budget", {&ledger}, "what every stage did to the energy", &TimeStep::account},
   };
   return list;
@@ -129,12 +132,13 @@ void TimeStep::close(Attempt& step) {
   const State& now = step.now;
   move_gate(step.next.time);
   inertia_.update(grid_, scene_, now.f_s, now.alpha);
+  viscosity_.update(boundary_, now);
+  if (!inertia_.holds_grains) return drag_.clear();
   const bool agitated = closures::agitates(scene_.model.granular_temperature);
   if (agitated || scene_.model.viscous_contact_pressure)
     strain_.update(grid_, boundary_.walls(), now.u_strain);
   rheology_.update(grid_, scene_, law_, boundary_, now, strain_);
   drag_.update(boundary_, now, inertia_, rheology_);
-  viscosity_.update(boundary_, now);
   if (!agitated) return;
   temperature_.predict(step.dt, now, drag_.beta_of_cells(), rheology_.restitution, strain_, stirred_);
   rheology_.update_kinetic_viscosity(grid_, scene_, law_, boundary_, now.f_s, stirred_);
@@ -194,7 +198,9 @@ void TimeStep::press(Attempt& step) {
 // divergence to rounding.
 void TimeStep::balance_fluxes(Attempt& step) {
   const Field& f_s = step.now.f_s;
-  const double solid = outflow_courant(grid_, step.dt, f_s, false, solid_that_counts_in(scene_), flux_s_),
+  const bool grains = inertia_.holds_grains;
+  const double least = solid_that_counts_in(scene_),
+               solid = grains ? outflow_courant(grid_, step.dt, f_s, false, least, flux_s_) : 0.0,
                fluid = outflow_courant(grid_, step.dt, f_s, true, 0.0, flux_c_);
   if (!(solid <= largest_outflow) || !(fluid <= largest_outflow)) {
     const bool of_solid = !(solid <= largest_outflow);
@@ -202,7 +208,7 @@ void TimeStep::balance_fluxes(Attempt& step) {
                                               of_solid ? solid : fluid, of_solid ? "solid" : "fluid");
     return;
   }
-  keep_solid_positive(grid_, boundary_, step.dt, f_s, flux_s_, flux_c_);
+  if (grains) keep_solid_positive(grid_, boundary_, step.dt, f_s, flux_s_, flux_c_);
   flux_c_solved_ = flux_c_;
   if (whole_columns_)
     close_continuity(grid_, boundary_, aperture_, flux_s_, flux_c_);

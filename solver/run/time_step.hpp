@@ -85,7 +85,10 @@ class TimeStep {
     return packing_follows_shear(step) ? sheared_packing_ : step.now.packing;
   }
   bool outruns_explicit_viscosity(const Attempt& step) const { return !viscosity_.bears(step.dt); }
-  bool packing_follows_shear(const Attempt&) const { return scene_.model.shear_dilatancy; }
+  bool holds_grains(const Attempt& /*step*/) const { return inertia_.holds_grains; }
+  bool packing_follows_shear(const Attempt& step) const {
+    return holds_grains(step) && scene_.model.shear_dilatancy;
+  }
 
   const Grid& grid_;
   const Scene& scene_;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/closures/friction/laws.hpp"
 #include "solver/scene/completion.hpp"
 #include "solver/scene/keys.hpp"
 #include "solver/scene/presets.hpp"

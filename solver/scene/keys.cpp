@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/scene/key_types.hpp"
 #include "solver/scene/keys_of_model.hpp"
 #include "solver/scene/keys_of_sides.hpp"

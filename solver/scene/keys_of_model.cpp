@@ -1,5 +1,12 @@
 #include "solver/scene/keys_of_model.hpp"
 
+#include "solver/closures/critical_packing/laws.hpp"
+#include "solver/closures/drag/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
+#include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/packing/laws.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/scene/key_types.hpp"
 #include "solver/scene/presets.hpp"
 #include "solver/scene/words_of_list.hpp"

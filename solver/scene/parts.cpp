@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace granvof {
@@ -115,7 +116,7 @@ constexpr Part bed_surface{
     .name = "bed surface",
     .page = "docs/theory/choices.md",
     .code = "solver/operators/bed_surface.hpp",
-    .acts = [](const Scene& s) { return has_grains(s) && s.numerics.bed_surface == BedSurface::part_cells; },
+    .acts = [](const Scene& s) { return has_grains(s) && s.numerics.has_part_cells(); },
     .of_grains = true};
 constexpr Part walls{
     .name = "walls", .page = "docs/theory/sides.md", .code = "solver/grid/sides/side_rule.hpp"};

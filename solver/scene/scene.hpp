@@ -11,18 +11,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "solver/closures/critical_packing/laws.hpp"
-#include "solver/closures/drag/laws.hpp"
-#include "solver/closures/friction/laws.hpp"
-#include "solver/closures/granular_temperature/laws.hpp"
-#include "solver/closures/kinetic_transport/laws.hpp"
-#include "solver/closures/packing/laws.hpp"
-#include "solver/closures/radial_distribution/laws.hpp"
-#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/model/fluid.hpp"
 #include "solver/model/grains.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof {
 
@@ -112,8 +106,6 @@ struct Gate {
 
 // --- what is modelled --------------------------------------------------------------------------------
 
-// Each of a list: the packing that shear drives a bed to, beta_c, the friction coefficient of (17), what
-// mu_s^K and kappa_s^K hold, the solid fraction at which grains touch, g0 of (19), and what of (7) is solved.
 using closures::CriticalPacking;
 using closures::DragLaw;
 using closures::FrictionLaw;
@@ -122,6 +114,10 @@ using closures::Packing;
 using closures::RadialDistribution;
 using closures::SlopeLimiter;
 using closures::TemperatureModel;
+
+// What a chosen law is called in a case file.
+template <typename List>
+std::string_view word_of(closures::Chosen<List> law);
 
 // Each switch removes one physical part; the ablation reports show what each is worth.
 struct Model {
@@ -149,16 +145,11 @@ struct Model {
   bool colour = true;                     // eq (25)
 
   // Where grains touch is a field of the state, which a bed at rest starts with.
-  bool carries_packing() const { return closures::is_carried(packing_at_start()); }
+  bool carries_packing() const;
   // Shear dilatancy moves what is carried.
-  Packing packing_at_start() const {
-    return shear_dilatancy ? Packing::of<closures::PackingCarried>() : packing;
-  }
+  Packing packing_at_start() const;
   // A law asks for the fluid's viscosity between the grains.
-  bool has_viscous_contacts() const {
-    return viscous_contact_pressure || closures::depends_on_pore_viscosity(friction_law) ||
-           (shear_dilatancy && closures::depends_on_rate(critical_packing));
-  }
+  bool has_viscous_contacts() const;
   bool operator==(const Model&) const = default;
 };
 
@@ -185,6 +176,8 @@ struct Numerics {
   double volume_tolerance = 1e-6;  // largest volume error of a cell in one step, as a fraction of the cell
   double linear_tolerance = 1e-3;  // residual reduction of one linear solve inside Newton
   int newton_max = 30;
+
+  bool has_part_cells() const { return bed_surface == BedSurface::part_cells; }
   bool operator==(const Numerics&) const = default;
 };
 

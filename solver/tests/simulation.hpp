@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -46,6 +48,8 @@ class Simulation {
   }
   // The state before the last step.
   const State& before() const { return loop_.before(); }
+
+  std::map<std::string, double> cost() const { return loop_.cost(); }
 
   // After the state was set by hand.
   void fill_ghosts() { now.fill_ghosts(boundary); }

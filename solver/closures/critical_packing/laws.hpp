@@ -4,12 +4,11 @@
 
 #include "solver/closures/critical_packing/by_rate.hpp"
 #include "solver/closures/critical_packing/constant.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using CriticalPackings = Choices<CriticalPackingConstant, CriticalPackingByRate>;
-using CriticalPacking = Chosen<CriticalPackings>;
+struct CriticalPackings : Choices<CriticalPackingConstant, CriticalPackingByRate> {};
 
 inline bool depends_on_rate(CriticalPacking chosen) {
   return chosen.with([](auto law) { return law.depends_on_rate; });

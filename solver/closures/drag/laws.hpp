@@ -5,11 +5,10 @@
 #include "solver/closures/drag/di_felice.hpp"
 #include "solver/closures/drag/paper.hpp"
 #include "solver/closures/drag/tenneti.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using DragLaws = Choices<DragPaper, DragDiFelice, DragBeetstra, DragTenneti>;
-using DragLaw = Chosen<DragLaws>;
+struct DragLaws : Choices<DragPaper, DragDiFelice, DragBeetstra, DragTenneti> {};
 
 }  // namespace granvof::closures

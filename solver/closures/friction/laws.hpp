@@ -6,12 +6,11 @@
 #include "solver/closures/friction/constant.hpp"
 #include "solver/closures/friction/inertial.hpp"
 #include "solver/closures/friction/viscous.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using FrictionLaws = Choices<FrictionConstant, FrictionInertial, FrictionViscous>;
-using FrictionLaw = Chosen<FrictionLaws>;
+struct FrictionLaws : Choices<FrictionConstant, FrictionInertial, FrictionViscous> {};
 
 inline bool depends_on_pore_viscosity(FrictionLaw chosen) {
   return chosen.with([](auto law) { return law.depends_on_pore_viscosity; });

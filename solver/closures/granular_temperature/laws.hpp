@@ -7,12 +7,11 @@
 #include "solver/closures/granular_temperature/algebraic.hpp"
 #include "solver/closures/granular_temperature/off.hpp"
 #include "solver/closures/granular_temperature/transported.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using TemperatureModels = Choices<TemperatureTransported, TemperatureAlgebraic, TemperatureOff>;
-using TemperatureModel = Chosen<TemperatureModels>;
+struct TemperatureModels : Choices<TemperatureTransported, TemperatureAlgebraic, TemperatureOff> {};
 
 inline bool agitates(TemperatureModel chosen) {
   return chosen.with([](auto model) { return model.agitates; });

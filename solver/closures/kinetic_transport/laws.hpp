@@ -5,11 +5,10 @@
 
 #include "solver/closures/kinetic_transport/collisional.hpp"
 #include "solver/closures/kinetic_transport/streaming.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using KineticTransports = Choices<TransportCollisional, TransportWithStreaming>;
-using KineticTransport = Chosen<KineticTransports>;
+struct KineticTransports : Choices<TransportCollisional, TransportWithStreaming> {};
 
 }  // namespace granvof::closures

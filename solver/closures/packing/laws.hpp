@@ -7,12 +7,11 @@
 
 #include "solver/closures/packing/carried.hpp"
 #include "solver/closures/packing/uniform.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using Packings = Choices<PackingUniform, PackingCarried>;
-using Packing = Chosen<Packings>;
+struct Packings : Choices<PackingUniform, PackingCarried> {};
 
 inline bool is_carried(Packing chosen) {
   return chosen.with([](auto law) { return law.is_carried; });

@@ -4,11 +4,10 @@
 
 #include "solver/closures/radial_distribution/jamming.hpp"
 #include "solver/closures/radial_distribution/paper.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using RadialDistributions = Choices<RadialPaper, RadialJamming>;
-using RadialDistribution = Chosen<RadialDistributions>;
+struct RadialDistributions : Choices<RadialPaper, RadialJamming> {};
 
 }  // namespace granvof::closures

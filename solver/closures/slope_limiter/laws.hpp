@@ -7,12 +7,11 @@
 #include "solver/closures/slope_limiter/none.hpp"
 #include "solver/closures/slope_limiter/superbee.hpp"
 #include "solver/closures/slope_limiter/van_leer.hpp"
-#include "solver/model/choices.hpp"
+#include "solver/model/laws.hpp"
 
 namespace granvof::closures {
 
-using SlopeLimiters = Choices<LimiterNone, LimiterVanLeer, LimiterSuperbee>;
-using SlopeLimiter = Chosen<SlopeLimiters>;
+struct SlopeLimiters : Choices<LimiterNone, LimiterVanLeer, LimiterSuperbee> {};
 
 inline bool is_of_second_order(SlopeLimiter chosen) {
   return chosen.with([](auto limiter) { return limiter.second_order; });

@@ -328,7 +328,7 @@ TEST(Units, AreAskedOfEveryClosure) {
   const auto root = cases_directory().parent_path();
   const std::string here = text_of(root / "solver/tests/closures/test_units.cpp");
   // a closure is a function that gives a number, or a number and its slope; a list is of laws
-  const std::regex declared(R"((?:double|PressureAndSlope) (\w+)\(|using (\w+) = Choices<)");
+  const std::regex declared(R"((?:double|PressureAndSlope) (\w+)\(|struct (\w+) : Choices<)");
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "solver/closures")) {
     if (entry.path().extension() != ".hpp") continue;

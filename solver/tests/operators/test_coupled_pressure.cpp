@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/point_on_law.hpp"
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/operators/coupled_pressure.hpp"
 #include "solver/operators/interphase_drag.hpp"
 #include "solver/scene/scales.hpp"

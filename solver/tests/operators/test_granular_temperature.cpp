@@ -1,6 +1,7 @@
 // Granular temperature: cooling, the steady balance of simple shear, and states it must survive.
 #include <gtest/gtest.h>
 
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/operators/granular_temperature.hpp"
 #include "solver/tests/operators/tank.hpp"

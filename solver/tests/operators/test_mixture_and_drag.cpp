@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/drag/drag.hpp"
+#include "solver/closures/drag/laws.hpp"
+#include "solver/closures/slope_limiter/laws.hpp"
 #include "solver/operators/interphase_drag.hpp"
 #include "solver/tests/operators/tank.hpp"
 

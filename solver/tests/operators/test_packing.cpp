@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/closures/critical_packing/laws.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/packing.hpp"
 #include "solver/tests/operators/tank.hpp"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/contact_pressure.hpp"
+#include "solver/closures/packing/laws.hpp"
 #include "solver/operators/mixture.hpp"
 #include "solver/run/hydrostatic_pressure.hpp"
 #include "solver/run/initial_state.hpp"

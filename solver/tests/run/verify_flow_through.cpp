@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "solver/closures/drag/drag.hpp"
+#include "solver/closures/drag/laws.hpp"
 #include "solver/run/alarms.hpp"
 #include "solver/run/monitors.hpp"
 #include "solver/tests/run/small_runs.hpp"

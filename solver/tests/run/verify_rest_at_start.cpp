@@ -106,5 +106,28 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"full_bell", joined({no_grains, bell, {"liquid.level=0.0662"}})}),
     test::name_of);
 
+// A block that hangs from an open top, above a pool: all that keeps the fluid from rest is what waits beyond
+// the top, next to nothing, and the pressure is solved for to a share of that. To a share of nothing the
+// solver went on until rounding had made 1e14 Pa of it.
+class HangingBlock : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(HangingBlock, StartsAtThePressureOfItsFluid) {
+  Simulation run(tank(joined({{"bed.length=0.02", "liquid.level=0.03"}, GetParam().overrides})));
+  const double g = 9.81, h = run.grid.h[1], top = 0.08, level = 0.03;
+  for_each_place(run.grid.all_cells(), [&](const std::array<int, 3>& at) {
+    const double y = (at[1] + 0.5) * h;
+    const double weight = g * ((top - std::fmax(y, level)) * 1.0 + std::fmax(level - y, 0.0) * 1000.0);
+    EXPECT_NEAR(run.now.p_c[run.grid.cells.index(at)], weight, 2.0 * g * h * 1.0) << at[0] << ' ' << at[1];
+  });
+  run.advance();
+}
+
+INSTANTIATE_TEST_SUITE_P(Beds, HangingBlock,
+                         ::testing::Values(Variant{"at_the_top", {"bed.y=0.05", "bed.height=0.03"}},
+                                           Variant{"of_few_cells", {"bed.y=0.07", "bed.height=0.01"}},
+                                           Variant{"that_rounding_takes_into_the_last_cell",
+                                                   {"bed.y=0.045", "bed.height=0.03000000000001"}}),
+                         test::name_of);
+
 }  // namespace
 }  // namespace granvof

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/closures/granular_temperature/laws.hpp"
 #include "solver/scene/load_scene.hpp"
 #include "solver/tests/cases_directory.hpp"
 #include "solver/tests/simulation.hpp"

@@ -7,6 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/closures/critical_packing/laws.hpp"
+#include "solver/closures/drag/laws.hpp"
+#include "solver/closures/friction/laws.hpp"
+#include "solver/closures/granular_temperature/laws.hpp"
+#include "solver/closures/kinetic_transport/laws.hpp"
+#include "solver/closures/packing/laws.hpp"
+#include "solver/closures/radial_distribution/laws.hpp"
 #include "solver/scene/case_error.hpp"
 #include "solver/scene/case_text.hpp"
 #include "solver/scene/complete.hpp"

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "solver/closures/drag/drag.hpp"
+#include "solver/closures/drag/laws.hpp"
 #include "solver/tests/verification/measured_scenes.hpp"
 
 namespace granvof::test {

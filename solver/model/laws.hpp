@@ -1,0 +1,18 @@
+// What a scene chooses of each list of laws, by its place in the list: a scene names no law, and what its
+// laws say is known to whoever includes the list, closures/*/laws.hpp.
+#pragma once
+
+#include "solver/model/choices.hpp"
+
+namespace granvof::closures {
+
+using CriticalPacking = Chosen<struct CriticalPackings>;        // the packing that shear drives a bed to
+using DragLaw = Chosen<struct DragLaws>;                        // beta_c
+using FrictionLaw = Chosen<struct FrictionLaws>;                // the friction coefficient of (17)
+using KineticTransport = Chosen<struct KineticTransports>;      // what mu_s^K and kappa_s^K hold
+using Packing = Chosen<struct Packings>;                        // the solid fraction at which grains touch
+using RadialDistribution = Chosen<struct RadialDistributions>;  // g0 of (19)
+using SlopeLimiter = Chosen<struct SlopeLimiters>;              // slopes of f_s within a cell
+using TemperatureModel = Chosen<struct TemperatureModels>;      // what of (7) is solved
+
+}  // namespace granvof::closures
