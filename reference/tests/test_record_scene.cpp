@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -69,10 +70,12 @@ TEST(RecordScene, ACaseWithLiquidKeepsIt) {
 
 // Over a step, with and without a gate before it: to the end, and nothing is lost.
 TEST(RecordScene, ACaseWithAnObstacleRunsAndKeepsWhatItHas) {
-  const std::string step = "obstacle={x0=[0.0125], x1=[0.0175], y0=[0], y1=[0.005]}";
   for (const bool gate : {false, true}) {
-    std::vector<std::string> changes{step, "reference.hold=0.005", "time.end=0.04"};
+    std::vector<std::string> changes{"reference.hold=0.005", "time.end=0.04"};
     if (gate) changes.emplace_back("gate={position=0.01, speed=1}");
+    // The column leans on it where there is no gate.
+    changes.push_back(
+        fmt::format("obstacle={{x0=[{}], x1=[0.0175], y0=[0], y1=[0.0025]}}", gate ? 0.0125 : 0.01));
     const Recorded wet = recorded(changes);
     ASSERT_EQ(wet.code, 0) << wet.facts;
     const auto solid = wet.series.column("solid_volume");
@@ -82,6 +85,17 @@ TEST(RecordScene, ACaseWithAnObstacleRunsAndKeepsWhatItHas) {
     // The water stands 15 mm high, and its surface has not moved by more than 2 mm.
     EXPECT_NEAR(*wet.series.column("p_base").back(), 9.81 * (15e-3 - 1.25e-3) * 1000.0, 25.0);
   }
+}
+
+// On an obstacle its base is there: the water over it has its own weight, and the bed rests.
+TEST(RecordScene, ABedOnAnObstacleHasItsBaseThere) {
+  const Recorded wet =
+      recorded({"obstacle={x0=[0], x1=[0.0125], y0=[0], y1=[0.005]}", "bed.y=0.005", "bed.height=0.004"});
+  ASSERT_EQ(wet.code, 0) << wet.facts;
+  const double own = 9810.0 * (15e-3 - 5e-3 - 1.25e-3);
+  EXPECT_NEAR(*wet.series.column("p_base").front(), own, 1.0);
+  EXPECT_NEAR(*wet.series.column("excess_base_pressure").front(), 0.0, 1.0);
+  EXPECT_NEAR(*wet.series.column("excess_base_pressure").back(), 0.0, 40.0);
 }
 
 // A column 7 beads high packs looser at its boundaries than asked for: it says so, and by how much.
