@@ -50,6 +50,13 @@ class ElasticEnergy {
     return f_s * energy * work / (work + denser * energy);
   }
 
+  // -dE/df_p [J/m3], what the contacts gain by a packing that falls. With P = f_s g it is g + f_s int g / x^2
+  // dx, and (P + E) / f_s but for the square of (f_s - f_p) / f_s.
+  double by_packing(double f_s, double packing) const {
+    if (f_s <= packing) return 0.0;
+    return (elastic_pressure(f_s, contact_, packing).value + (*this)(f_s, packing)) / f_s;
+  }
+
  private:
   static constexpr int pieces = 512;
   struct Integrals {

@@ -1,5 +1,5 @@
-// What a scene chooses of each list of laws, by its place in the list: a scene names no law, and what its
-// laws say is known to whoever includes the list, closures/*/laws.hpp.
+// What a scene chooses of each list of laws, closures/*/laws.hpp: a place in the list, and no law.
+// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
 #pragma once
 
 #include "solver/model/choices.hpp"

@@ -56,9 +56,24 @@ EnergyTerms EnergyBudget::stored(const State& s) const {
   return terms;
 }
 
+// A bed that shear loosens gets it at the pressure which the step has solved for: its grains follow within
+// the step, and what they would hold if they did not is never held. One that shear packs loses what it holds
+// before its grains move.
+double EnergyBudget::given_by_shear(const State& now, const State& next, const StepTrace& trace) const {
+  if (!scene_.model.shear_dilatancy) return 0.0;
+  const double *f0 = now.f_s.data(), *f = fraction_of_law(now, next).data(), *p0 = now.packing.data(),
+               *p = trace.packing.data();
+  const auto* energy = &elastic_energy_;
+  return grid_.cell_volume * sum_over(grid_.cells, grid_.all_cells(), [=](std::ptrdiff_t c) {
+           return p[c] < p0[c] ? (p0[c] - p[c]) * energy->by_packing(f[c], p[c])
+                               : (*energy)(f0[c], p[c]) - (*energy)(f0[c], p0[c]);
+         });
+}
+
 EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next,
                                   const StepTrace& trace) const {
   const bool grains = trace.inertia.holds_grains;
+  const double given = grains ? given_by_shear(now, next, trace) : 0.0;
   const FaceWork w = work_on_faces(grid_, scene_, boundary_.side_pressure(), dt, now, next, trace);
   const Friction::Power& stress = trace.stress;
   const GranularLosses& granular = trace.granular;
@@ -76,7 +91,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
               dt * (trace.viscous.sides + stress.sides);
   t.walls = dt * (trace.viscous.walls + stress.walls);
   t.dense_excess = (grains ? work_of_flow_pressure(dt, now, next, trace) : 0.0) - granular.pressure;
-  t.shear_dilatancy = trace.sheared - now.energy.elastic;
+  t.shear_dilatancy = given;
 
   t.numerical_time = w.step;
   t.numerical_momentum = -(w.convected + w.moved + w.kinetic_out);
@@ -85,7 +100,7 @@ EnergyTerms EnergyBudget::of_step(double dt, const State& now, const State& next
   t.numerical_viscosity = dt * trace.viscous_power - w.viscous;
   t.numerical_stress = dt * (stress.solved_for - stress.on_grains);
   t.numerical_elastic =
-      -(grains ? work_of_contacts(dt, now, next, trace) : 0.0) - (trace.carried - trace.sheared);
+      -(grains ? work_of_contacts(dt, now, next, trace) : 0.0) - (trace.carried - now.energy.elastic - given);
   t.numerical_granular = granular.bounds + granular.run_out - granular.spared;
   t.upwind_momentum = dt * trace.predictor.upwind_power();
   t.theta_bounds = granular.bounds;

@@ -36,8 +36,7 @@ struct StepTrace {
   const Friction::Power& stress;
   const GranularLosses& granular;
   const Field& packing;  // at which the grains touched in the pressure step
-  double sheared;        // elastic energy of the old level at that packing [J]
-  double carried;        // the same of the new level
+  double carried;        // elastic energy of the new level [J]
   const LiquidPassed& passed;
 };
 
@@ -59,6 +58,8 @@ class EnergyBudget {
   double work_of_flow_pressure(double dt, const State& now, const State& next, const StepTrace& trace) const;
   // The same of the elastic pressure.
   double work_of_contacts(double dt, const State& now, const State& next, const StepTrace& trace) const;
+  // Energy that the contacts got by the shear of the step [J].
+  double given_by_shear(const State& now, const State& next, const StepTrace& trace) const;
   const Field& fraction_of_law(const State& now, const State& next) const;
 
   const Grid& grid_;

@@ -171,7 +171,6 @@ void TimeStep::pack(Attempt& step) {
   shear_packing(grid_, scene_, step.dt, step.now.f_s, rheology_, strain_, next.packing);
   boundary_.fill_scalar(next.packing);
   sheared_packing_ = next.packing;
-  step.sheared = budget_.elastic(step.now.f_s, sheared_packing_);
 }
 
 void TimeStep::diffuse_fluid(Attempt& step) {
@@ -260,11 +259,10 @@ void TimeStep::account(Attempt& step) {
   if (implicit) viscosity_.set_strain(boundary_, next.u_c);
   const FluidViscosity::Power viscous = viscosity_.power(boundary_, implicit ? next.u_c : step.now.u_c);
   if (implicit) step.viscous_power = viscous.walls + viscous.sides - viscous.dissipation;
-  next.energy.add(
-      budget_.of_step(step.dt, step.now, next,
-                      {law_, inertia_, drag_.beta(), predictor_, flux_s_, flux_c_, flux_c_solved_, rheology_,
-                       strain_, step.viscous_power, viscous, step.stress, step.granular, packing_of(step),
-                       step.sheared.value_or(step.now.energy.elastic), step.elastic, *step.passed}));
+  next.energy.add(budget_.of_step(step.dt, step.now, next,
+                                  {law_, inertia_, drag_.beta(), predictor_, flux_s_, flux_c_, flux_c_solved_,
+                                   rheology_, strain_, step.viscous_power, viscous, step.stress,
+                                   step.granular, packing_of(step), step.elastic, *step.passed}));
 }
 
 }  // namespace granvof

@@ -46,8 +46,7 @@ class TimeStep {
     const BodyAcceleration* extra;
     StepReport report{};
     double viscous_power = 0.0;            // of the fluid, explicit or implicit [W]
-    std::optional<double> sheared{};       // elastic energy once shear had changed the packing [J]
-    double elastic = 0.0;                  // the same once the grains were carried
+    double elastic = 0.0;                  // stored by contacts once the grains were carried [J]
     const LiquidPassed* passed = nullptr;  // what crossed the faces
     Friction::Power stress{};              // of the solid
     GranularLosses granular{};
