@@ -1,5 +1,7 @@
 #include "solver/operators/solid_momentum.hpp"
 
+#include "solver/scene/parts.hpp"
+
 namespace granvof {
 namespace {
 
@@ -23,7 +25,12 @@ FaceField ahead(FaceField u, const FaceField& before) {
 }  // namespace
 
 SolidMomentum::SolidMomentum(const Grid& grid, const Scene& scene, const Boundary& boundary)
-    : grid_(grid), boundary_(boundary), friction_(grid, scene, boundary), balance_(grid) {}
+    : grid_(grid),
+      boundary_(boundary),
+      friction_(grid, scene, boundary),
+      balance_(grid),
+      relaxation_(scene.solid.density * scene.solid.diameter * scene.solid.diameter /
+                  (18.0 * (has_liquid(scene) ? scene.liquid : scene.gas).viscosity)) {}
 
 linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumPredictor& predicted,
                                     const FaceInertia& inertia, const InterphaseDrag& drag,
@@ -31,10 +38,13 @@ linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumP
   set_balance(dt, now, predicted, inertia, drag, aperture, next);
   linear::Report report = friction_.solve(balance_, inertia, aperture, rheology, now, next);
   bool creeps = false;
+  double share_before = 0.0;
   const auto settled = [&](int pass) {
     const Friction::Missed missed = friction_.yields_otherwise(rheology, next);
-    creeps = missed.share <= missed_friction && missed.held > 0.0 &&
+    // it misses as much in every pass
+    creeps = dt < relaxation_ && missed.share <= missed_friction && missed.share > 0.5 * share_before &&
              missed.held * dt > missed_motion * kinetic_energy(inertia, next);
+    share_before = missed.share;
     if (creeps || missed.share > missed_friction) return false;
     return !friction_.has_coulomb_walls() || (pass > 1 && !friction_.slips_otherwise(next));
   };

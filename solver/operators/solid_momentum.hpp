@@ -38,6 +38,9 @@ class SolidMomentum {
   const Boundary& boundary_;
   Friction friction_;
   SolidBalance balance_;
+  // Of a grain in its fluid, by Stokes [s]. Within a step that is longer grains have no inertia to be late
+  // by: what holds them is the rate of shear, of which the viscosities of the step before know enough.
+  double relaxation_;
 };
 
 }  // namespace granvof

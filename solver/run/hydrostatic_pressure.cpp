@@ -175,7 +175,7 @@ class BesideTheMean {
   }
 
   Field pressure() {
-    if (!any_) return {};
+    if (everywhere(grid_.cells, !any_)) return {};
     const Layout& l = grid_.cells;
     const std::ptrdiff_t s = grid_.stride(vertical);
     linear::Faces faces;
