@@ -1,5 +1,4 @@
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include <gtest/gtest.h>

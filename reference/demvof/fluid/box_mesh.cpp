@@ -44,7 +44,9 @@ Foam::labelList places_of_cells(const FluidSettings& s) {
   for (label place = 0; place < s.cells[0] * s.cells[1] * s.cells[2]; ++place) {
     if (s.obstacles.empty() || s.obstacles[static_cast<std::size_t>(place)] == 0) places.append(place);
   }
-  return Foam::labelList(places);
+  Foam::labelList list;
+  list.transfer(places);
+  return list;
 }
 
 std::unique_ptr<Foam::fvMesh> make_box_mesh(const FluidSettings& s, const Foam::Time& time) {

@@ -102,7 +102,8 @@ std::array<std::vector<double>, 3> Fluid::predict_pressure_gradient(double dt, c
 
 void Fluid::refresh_view() {
   const Fields& f = *fields_;
-  const auto n = static_cast<std::size_t>(f.settings.cells[0] * f.settings.cells[1] * f.settings.cells[2]);
+  std::size_t n = 1;
+  for (const int cells : f.settings.cells) n *= static_cast<std::size_t>(cells);
   view_.alpha.resize(n);
   view_.pressure.resize(n);
   for (int d = 0; d < 3; ++d) {
