@@ -149,7 +149,8 @@ std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   const Model& model = scene.model;
   const double speed = scene.sides[top].velocity[0] - scene.sides[bottom].velocity[0];
   if (!scene.bed || speed <= 0.0 || !closures::is_transported(model.granular_temperature) ||
-      model.correlated_collisions || closures::depends_on_rate(model.critical_packing))
+      model.correlated_collisions || model.bounds_collisions() ||
+      closures::depends_on_rate(model.critical_packing))
     return std::nullopt;
   const Solid& solid = scene.solid;
   const double high = scene.bed->box.upper[1] - scene.bed->box.lower[1];

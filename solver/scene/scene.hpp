@@ -137,6 +137,7 @@ struct Model {
   bool correlated_collisions = false;  // dissipate less in dense flow, collisions.hpp
   bool contact_friction = true;        // tau_s^E, eq (17)
   FrictionLaw friction_law;
+  bool whole_stress_friction = false;  // friction_law is one of contacts and collisions, contact_friction.hpp
   Packing packing;
   bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
   bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
@@ -153,6 +154,10 @@ struct Model {
   // Shear dilatancy moves what is carried.
   Packing packing_at_start() const {
     return shear_dilatancy ? Packing::of<closures::PackingCarried>() : packing;
+  }
+  bool bounds_collisions() const {
+    return whole_stress_friction && contact_friction && kinetic_viscosity &&
+           closures::agitates(granular_temperature);
   }
   // A law asks for the fluid's viscosity between the grains.
   bool has_viscous_contacts() const {
