@@ -30,7 +30,7 @@ struct EvenShear {
 };
 
 // Nothing without a bed, moving walls, or Theta of its own equation; nor with a critical
-// packing that follows the rate, or correlated collisions.
+// packing that follows the rate, correlated collisions, or friction of the whole stress.
 std::optional<EvenShear> printed_even_shear(const Scene& scene);
 
 }  // namespace granvof::compare

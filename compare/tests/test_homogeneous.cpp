@@ -93,6 +93,7 @@ TEST(PrintedEvenShear, OfGrainsNearTheirDensest) {
 TEST(PrintedEvenShear, NeedsMovingWallsAndNoHistory) {
   EXPECT_FALSE(printed_even_shear(even("settling")));
   EXPECT_FALSE(printed_even_shear(even("shear", {"model.correlated_collisions=true"})));
+  EXPECT_FALSE(printed_even_shear(even("shear", {"model.whole_stress_friction=true"})));
   EXPECT_FALSE(printed_even_shear(even("shear", {"model.granular_temperature=off"})));
 }
 

@@ -2,6 +2,7 @@
 // Equations: docs/theory/contact.md.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace granvof::closures {
@@ -13,6 +14,16 @@ inline double friction_viscosity(double p_enduring, double eta, double n, double
   const double x = n * strain_norm;
   const double shape = x > 1e-8 ? -std::expm1(-x) / x : 1.0 - 0.5 * x;
   return 0.5 * p_enduring * eta * n * shape;
+}
+
+// Viscosity f_s mu_s^K [Pa s] of grains whose friction law is one of their whole stress, contacts and
+// collisions: these bear P_s^K and shear by no more than the law has for that, so that both together never
+// shear by more than eta (P_s^E + P_s^K). kinetic = f_s mu_s^K of kinetic theory >= 0 [Pa s], p_kinetic =
+// P_s^K >= 0 [Pa], eta of P_s^E + P_s^K; the rest as in friction_viscosity(). Own. Limits: kinetic for
+// ||S|| -> 0, and of a gas that is hot for its shear; 0 for P_s^K = 0 or eta = 0.
+inline double bounded_kinetic_viscosity(double kinetic, double p_kinetic, double eta, double n,
+                                        double strain_norm) {
+  return std::min(kinetic, friction_viscosity(p_kinetic, eta, n, strain_norm));
 }
 
 // Friction coefficient below which a layer of thickness h [m] on a rough floor comes to rest [-]: mu_s +

@@ -32,6 +32,7 @@ Friction::Friction(const Grid& grid, const Scene& scene, const Boundary& boundar
       weight_(grid),
       residual_(grid),
       correction_(grid) {
+  if (scene.model.bounds_collisions()) bounded_ = Field(grid);
   if (grid.cells.is_cut() && grid.dim == 2) direct_of_slabs_.emplace(grid, scene);
   for (int p = 0; p < (grid.dim == 2 ? 1 : 3); ++p) {
     mu_edge_[p] = Field(grid);
@@ -56,7 +57,7 @@ void Friction::fit_box(const FaceInertia& inertia) {
   const Range box = box_of_grains(grid_, inertia);
   if (box == box_) return;
   box_ = box;
-  for (Field* f : {&mu_, &mu_vertical_, &lambda_}) f->fill(0.0);
+  for (Field* f : {&mu_, &mu_vertical_, &lambda_, &bounded_}) f->fill(0.0);
   for (int p = 0; p < (grid_.dim == 2 ? 1 : 3); ++p)
     for (Field* f : {&mu_edge_[p], &shear_[p]}) f->fill(0.0);
   multigrid_.clear();

@@ -5,13 +5,13 @@
 // the solve is in friction.cpp.
 //
 //   mass u_s - div(2 mu S + lambda (div u_s) I) = rhs,  mu = f_s mu_s^K + mu_friction,  lambda = f_s mu_s^K
-// (f_s (zeta - 2/3 mu) of (16) equals f_s mu_s^K because zeta/mu = 5/3). The full tensor is kept implicit:
-// with a contrast of 1e10 its cross terms cannot be lagged. CG with one multigrid cycle a component, or with
-// the factorised matrix where the bed is thin (friction_direct.hpp); the wall
-// stress of no-slip and Coulomb walls is part of the operator. Known problem: with the full S of (17)
-// friction carries normal load: the base of a bed at rest shows P_s = 270 Pa for a weight of 409 Pa; sigma_yy
-// = P_s - tau_yy is what balances the weight.
-// Equations: docs/theory/contact.md, docs/theory/kinetic-theory.md.
+// (f_s (zeta - 2/3 mu) of (16) equals f_s mu_s^K because zeta/mu = 5/3; where whole-stress friction bounds
+// mu_s^K, zeta stays). The full tensor is kept implicit: with a contrast of 1e10 its cross terms cannot be
+// lagged. CG with one multigrid cycle a component, or with the factorised matrix where the bed is thin
+// (friction_direct.hpp); the wall stress of no-slip and Coulomb walls is part of the operator. Known problem:
+// with the full S of (17) friction carries normal load: the base of a bed at rest shows P_s = 270 Pa for a
+// weight of 409 Pa; sigma_yy = P_s - tau_yy is what balances the weight. Equations: docs/theory/contact.md,
+// docs/theory/kinetic-theory.md.
 #pragma once
 
 #include <optional>
@@ -87,6 +87,11 @@ class Friction {
   void strain_of_contacts(const Rheology& rheology, const FaceField& u, StrainRate& strain);
   void free_faces_of_part_cells(const Rheology& rheology, const FaceField& u, StrainRate& strain);
   void set_viscosity(const Rheology& rheology, const FaceField& u_strain);
+  // f_s mu_s^K that collisions shear by [Pa s], ghosts filled; in the box alone that of the last solve.
+  const Field& shear_of_collisions(const Rheology& rheology) const {
+    return bounded_.empty() ? rheology.kinetic_viscosity : bounded_;
+  }
+  const Field& shear_of_collisions() const { return bounded_.empty() ? lambda_ : bounded_; }
   linear::Report solve_by(const SolidBalance& balance, const FaceInertia& inertia, const Aperture& aperture,
                           const Rheology& rheology, const FaceField& u_strain, FaceField& u_s);
   bool holds_by_friction(int d, bool upper) const;
@@ -126,6 +131,7 @@ class Friction {
   std::array<Layout, 3> faces_;          // of the box, by direction
   StrainRate strain_, strain_of_solve_;  // that of the viscosities; of what they gave
   Field mu_, lambda_;                    // at cell centres [Pa s]
+  Field bounded_;                        // bounded_kinetic_viscosity() of cells [Pa s]; empty without
   std::array<Field, 3> mu_edge_;         // on edges [Pa s], by plane_index()
   std::array<Field, 3> shear_;           // shear stress on edges [Pa]
   std::array<Field, 3> kinetic_edge_;    // with bumpy or Coulomb walls, the kinetic part of mu_edge_ [Pa s]

@@ -6,6 +6,7 @@
 #include "solver/closures/contact_friction.hpp"
 #include "solver/closures/critical_packing/laws.hpp"
 #include "solver/closures/friction/laws.hpp"
+#include "solver/closures/kinetic_theory.hpp"
 #include "solver/closures/shear_dilatancy.hpp"
 #include "solver/operators/friction.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 struct Contacts {
   int count = 0;
   double pressure = 0.0;        // P_s^E [Pa]
+  double kinetic = 0.0;         // P_s^K [Pa] where the law is one of the whole stress, else 0
   double tan_psi = 0.0;         // tan(psi) [-]
   double least = 0.0;           // coefficient of a layer that stops [-]
   double drag = 0.0;            // beta on the agitation [kg/m3 s]
@@ -82,8 +84,9 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
   const Contact contact = scene_.contact;
   const bool dilates = scene_.model.shear_dilatancy && scene_.model.dilatancy_friction;
   const CriticalPacking critical = scene_.model.critical_packing;
-  const auto viscosity_at = [=](const Contacts& sum, double norm) {
-    const double share = 1.0 / sum.count, pressure = share * sum.pressure, mu_c = share * sum.fluid;
+  // By the pressure that the law is one of, without the drag on agitation.
+  const auto coefficient_at = [=](const Contacts& sum, double pressure, double norm) {
+    const double share = 1.0 / sum.count, mu_c = share * sum.fluid;
     const double of_law = friction.with([&](auto law) {
       return law.coefficient({pressure, norm, mu_c}, grains, contact);
     });
@@ -96,24 +99,43 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
         tan_psi += contact.dilatancy_slope * (contact.critical_solid_fraction - law.packing(mixed, contact));
       }
     });
-    double coefficient = std::max(std::max(of_law, share * sum.least) + tan_psi, 0.0);
+    return std::max(std::max(of_law, share * sum.least) + tan_psi, 0.0);
+  };
+  const auto viscosity_at = [=](const Contacts& sum, double norm) {
+    const double share = 1.0 / sum.count, pressure = share * sum.pressure;
+    double coefficient = coefficient_at(sum, share * (sum.pressure + sum.kinetic), norm);
     if (sum.drag > 0.0)
       coefficient +=
           closures::agitation_friction(share * sum.drag, pressure, norm, grains.density, grains.diameter);
     return closures::friction_viscosity(pressure, coefficient, n, norm);
   };
-  const double *p = rheology.enduring_pressure.data(), *kinetic = rheology.kinetic_viscosity.data(),
+  const double *p = rheology.enduring_pressure.data(), *whole = rheology.kinetic_viscosity.data(),
                *psi = rheology.dilatancy_tangent.data(), *stop = rheology.arrest_friction.data(),
                *beta = rheology.agitated_drag.data();
   const double* fluid = rheology.pore_viscosity.empty() ? nullptr : rheology.pore_viscosity.data();
   const double *sq = strain_.squared.data(), *side = rheology.free_side.data();
+  const bool bounds = !bounded_.empty();
+  const double* borne = bounds ? rheology.kinetic_pressure.data() : nullptr;  // by collisions
+  const auto in_cell = [=](std::ptrdiff_t c) {
+    return Contacts{1, p[c], borne ? borne[c] : 0.0, psi[c], stop[c], beta[c], fluid ? fluid[c] : 0.0, 0.0};
+  };
+  const auto norm_of = [=](std::ptrdiff_t c) { return std::sqrt(0.5 * sq[c]); };
+  if (bounds) {
+    double* bounded = bounded_.data();
+    for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
+      bounded[c] = 0.0;
+      if (borne[c] <= 0.0) return;
+      const double norm = norm_of(c), eta = coefficient_at(in_cell(c), p[c] + borne[c], norm);
+      bounded[c] = closures::bounded_kinetic_viscosity(whole[c], borne[c], eta, n, norm);
+    });
+    boundary_.fill_scalar(bounded_);
+  }
+  const double* kinetic = shear_of_collisions(rheology).data();
   double *mu = mu_.data(), *lambda = lambda_.data();
   for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
-    lambda[c] = kinetic[c];
+    lambda[c] = whole[c] + (closures::bulk_to_shear_viscosity - 1.0) * (whole[c] - kinetic[c]);
     mu[c] = kinetic[c];
-    if (p[c] > 0.0)
-      mu[c] += viscosity_at({1, p[c], psi[c], stop[c], beta[c], fluid ? fluid[c] : 0.0, 0.0},
-                            std::sqrt(0.5 * sq[c]));
+    if (p[c] > 0.0) mu[c] += viscosity_at(in_cell(c), norm_of(c));
   });
   boundary_.fill_scalar(mu_);
   if (has_part_cells()) {
@@ -121,7 +143,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
     const double* held = rheology.part_cells.held.data();
     for_each(grid_.cells, box_, [=](std::ptrdiff_t c) {
       const double hold = side[c] == 0.0 ? 1.0 : held[c];
-      squeezed[c] = lambda[c] + hold * (mu[c] - lambda[c]);
+      squeezed[c] = kinetic[c] + hold * (mu[c] - kinetic[c]);
     });
     boundary_.fill_scalar(mu_vertical_);
   }
@@ -151,6 +173,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
           if (pressure <= 0.0) continue;
           ++sum.count;
           sum.pressure += pressure;
+          if (borne) sum.kinetic += borne[a];
           sum.tan_psi += psi[a];
           sum.least += stop[a];
           sum.drag += beta[a];
@@ -187,7 +210,7 @@ void Friction::set_viscosity(const Rheology& rheology, const FaceField& u_strain
 // the whole distance. Along the gate they slip.
 void Friction::hold_to_walls(const FaceInertia& inertia, const Rheology& rheology, int d, int e) {
   const int plane = plane_index(d, e);
-  const double* kinetic = rheology.kinetic_viscosity.data();
+  const double* kinetic = shear_of_collisions(rheology).data();
   double* viscosity = mu_edge_[plane].data();
   for (const Obstacles::Edge& edge : grid_.obstacles.edges(plane)) {
     if (edge.on_side) continue;  // on which grains slip

@@ -17,7 +17,7 @@ Friction::Missed Friction::yields_otherwise(const Rheology& rheology, const Stat
   boundary_.fill_velocity(correction_, Phase::solid);
   strain_of_contacts(rheology, correction_, strain_of_solve_);
   const double n = scene_.contact.regularisation;
-  const double *mu = mu_.data(), *kinetic = lambda_.data(), *was = strain_.squared.data(),
+  const double *mu = mu_.data(), *kinetic = shear_of_collisions().data(), *was = strain_.squared.data(),
                *is = strain_of_solve_.squared.data();
   const auto shape = [=](double squared) {
     return closures::friction_viscosity(1.0, 1.0, n, std::sqrt(0.5 * squared));
@@ -42,10 +42,10 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
   fill_wall_ghosts(v, true);
   apply(mass, v, r);
   Power power;
-  const double *kinetic = lambda_.data(), *div = divergence_.data();
+  const double *kinetic = shear_of_collisions().data(), *lambda = lambda_.data(), *div = divergence_.data();
   double* spent = kinetic_power.data();
   double total = sum_over(grid_.cells, box_, [=](std::ptrdiff_t c) {
-    spent[c] = kinetic[c] * div[c] * div[c];
+    spent[c] = lambda[c] * div[c] * div[c];
     return spent[c];
   });
   for (int d = 0; d < grid_.dim; ++d) {
@@ -102,7 +102,7 @@ Friction::Power Friction::power(const FaceField& mass, const State& next, Field&
     power.sides += sign * area * sum_over(grid_.cells, grid_.side_faces(d, upper), [=](std::ptrdiff_t c) {
                      const std::ptrdiff_t cell = c + inside;
                      const double stretch = (x[cell + s] - x[cell]) * inv_h;
-                     return x[c] * (2.0 * mu[cell] * stretch + kinetic[cell] * div[cell]);
+                     return x[c] * (2.0 * mu[cell] * stretch + lambda[cell] * div[cell]);
                    });
   });
   power.walls = wall_power(grid_, boundary_, [&](int d, int e) {

@@ -43,7 +43,7 @@ void Friction::keep_normal_stress(const FaceField& u) {
       if (!holds_by_friction(d, upper)) continue;
       const std::ptrdiff_t s = grid_.stride(d);
       const double two_by_h = 2.0 / grid_.h[d];
-      const double *mu = normal_viscosity(d), *kinetic = lambda_.data(), *v = u[d].data();
+      const double *mu = normal_viscosity(d), *kinetic = shear_of_collisions().data(), *v = u[d].data();
       double* stress = normal_stress_[d].data();
       for_each(grid_.cells, common(grid_.side_cells(d, upper), box_),
                [=](std::ptrdiff_t c) { stress[c] = (mu[c] - kinetic[c]) * (v[c + s] - v[c]) * two_by_h; });
@@ -117,7 +117,7 @@ bool Friction::slips_otherwise(const State& next) const {
 // slab's weight, on which the wall then had no friction.)
 void Friction::set_kinetic_edges(const Rheology& rheology) {
   if (kinetic_edge_[0].empty()) return;
-  const double* kinetic = rheology.kinetic_viscosity.data();
+  const double* kinetic = shear_of_collisions(rheology).data();
   for (int d = 0; d < grid_.dim; ++d) {
     for (int e = d + 1; e < grid_.dim; ++e) {
       const std::ptrdiff_t s = grid_.stride(d), t = grid_.stride(e);

@@ -105,6 +105,14 @@ void Rheology::update_kinetic_viscosity(const Grid& grid, const Scene& scene, co
     mu[c] = f[c] < least_solid_fraction ? 0.0 : laws.viscosity(f[c], t[c], e[c], rho_s, d_s);
   });
   boundary.fill_scalar(kinetic_viscosity);
+  if (scene.model.bounds_collisions()) {
+    if (kinetic_pressure.empty()) kinetic_pressure = Field(grid);
+    double* p = kinetic_pressure.data();
+    for_each(grid.cells, [=](std::ptrdiff_t c) {
+      p[c] = f[c] < least_solid_fraction ? 0.0 : laws.pressure(f[c], e[c], rho_s) * t[c];
+    });
+    boundary.fill_scalar(kinetic_pressure);
+  }
   if (!grid.has_bumps()) return;
   if (bump_pressure.empty()) bump_pressure = Field(grid);
   double* bump = bump_pressure.data();

@@ -22,11 +22,12 @@ struct Rheology {
   Field free_side;          // +1, -1: grains at rest fill a part of the cell, and its upper, lower face is
                             // free; else 0 [-]
   // Empty where the scene has none:
-  Field half_weight;     // with part-cells: half the weight of a cell's grains, see bed_surface.hpp [Pa]
-  Field pore_viscosity;  // mu_c of the fluid between the grains, of laws of viscous contacts [Pa s]
-  Field viscous_stress;  // mu_c gamma of viscous_contact_pressure() [Pa]
-  Field bump_pressure;   // P_s^K / sqrt(Theta) at the Theta of the kinetic viscosity, beside bumpy walls [Pa
-                         // s/m]
+  Field half_weight;       // with part-cells: half the weight of a cell's grains, see bed_surface.hpp [Pa]
+  Field pore_viscosity;    // mu_c of the fluid between the grains, of laws of viscous contacts [Pa s]
+  Field viscous_stress;    // mu_c gamma of viscous_contact_pressure() [Pa]
+  Field kinetic_pressure;  // with whole-stress friction: P_s^K at the Theta of the kinetic viscosity [Pa]
+  Field bump_pressure;  // P_s^K / sqrt(Theta) at the Theta of the kinetic viscosity, beside bumpy walls [Pa
+                        // s/m]
 
   explicit Rheology(const Grid& grid)
       : restitution(grid),
@@ -43,7 +44,8 @@ struct Rheology {
   void update(const Grid& grid, const Scene& scene, const closures::SolidLaw& law, const Boundary& boundary,
               const State& now, const StrainRate& strain);
 
-  // The kinetic viscosity and the pressure on bumps at `theta`, with ghosts filled; e must be up to date.
+  // The kinetic viscosity and, where they are asked for, kinetic pressure and that on bumps at `theta`, with
+  // ghosts filled; e must be up to date.
   void update_kinetic_viscosity(const Grid& grid, const Scene& scene, const closures::SolidLaw& law,
                                 const Boundary& boundary, const Field& f_s, const Field& theta);
 

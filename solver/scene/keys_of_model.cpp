@@ -115,6 +115,11 @@ std::vector<Key> model_keys() {
              "Friction coefficient, " + sources_of<closures::FrictionLaws>() +
                  ": solid.friction, or mu(I), which it is at rest, or likewise mu(I_v), of grains that a "
                  "viscous liquid stops."),
+      came_later(
+          key(parts::friction, "model.whole_stress_friction", "", any, of(&Model::whole_stress_friction),
+              "The friction law is one of all that grains bear: it goes by P_s^E + P_s^K, and collisions "
+              "shear by no more than it has for P_s^K."),
+          "false"),
       came_later(choice(parts::packing, "model.packing", words_of<closures::Packings>(), of(&Model::packing),
                         "Where grains touch: at contact.solid_fraction_min everywhere (the paper), or where "
                         "(13) bears the weight of the bed as it is set up, carried with the grains: a bed "

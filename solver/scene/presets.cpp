@@ -55,6 +55,9 @@ const std::vector<Choice>& choices() {
        .advised = "inertial",
        .sourced = "inertial",
        .reason = "Friction grows with the rate of shear, from solid.friction at rest (Jop et al. 2006)."},
+      {.key = "model.whole_stress_friction",
+       .reason = "Own: mu(I) is a law of the whole stress, and chutes run as it has them; else the kinetic "
+                 "stress comes on top, and they are too slow."},
       {.key = "model.shear_dilatancy",
        .sourced = true,
        .reason = "The packing at which grains touch follows shear: a dense bed starts at rest, and sucks "

@@ -18,6 +18,11 @@ Packing Model::packing_at_start() const {
   return shear_dilatancy ? Packing::of<closures::PackingCarried>() : packing;
 }
 
+bool Model::bounds_collisions() const {
+  return whole_stress_friction && contact_friction && kinetic_viscosity &&
+         closures::agitates(granular_temperature);
+}
+
 bool Model::has_viscous_contacts() const {
   return viscous_contact_pressure || closures::depends_on_pore_viscosity(friction_law) ||
          (shear_dilatancy && closures::depends_on_rate(critical_packing));

@@ -133,6 +133,7 @@ struct Model {
   bool correlated_collisions = false;  // dissipate less in dense flow, collisions.hpp
   bool contact_friction = true;        // tau_s^E, eq (17)
   FrictionLaw friction_law;
+  bool whole_stress_friction = false;  // friction_law is one of contacts and collisions, contact_friction.hpp
   Packing packing;
   bool thin_layer_arrest = false;  // layers on a rough floor stop at mu_stop(h), contact_friction.hpp
   bool shear_dilatancy = false;    // where grains touch follows shear, shear_dilatancy.hpp
@@ -148,6 +149,8 @@ struct Model {
   bool carries_packing() const;
   // Shear dilatancy moves what is carried.
   Packing packing_at_start() const;
+  // Collisions shear by no more than the friction law has for what they bear.
+  bool bounds_collisions() const;
   // A law asks for the fluid's viscosity between the grains.
   bool has_viscous_contacts() const;
   bool operator==(const Model&) const = default;

@@ -52,6 +52,21 @@ TEST(ContactFriction, VanishesWithoutPressureOrFriction) {
   EXPECT_EQ(friction_viscosity(pressure, 0.0, n, 1.0), 0.0);
 }
 
+// Of a gas that is sheared at `rate` = 2 ||S||.
+TEST(ContactFriction, OfTheWholeStressBoundsCollisions) {
+  const double hot = 2.0, rate = 10.0;  // [Pa s], [1/s]
+  const auto bounded = [=](double kinetic, double borne, double at) {
+    return bounded_kinetic_viscosity(kinetic, borne, eta, n, 0.5 * at);
+  };
+  EXPECT_EQ(bounded(hot, 100.0, rate), hot);                        // 20 Pa of the 40 that it may have
+  EXPECT_NEAR(bounded(hot, 25.0, rate) * rate, eta * 25.0, 1e-10);  // 10 Pa, not 20
+  EXPECT_NEAR(bounded(hot, 25.0, rate) + friction_viscosity(75.0, eta, n, 0.5 * rate),
+              friction_viscosity(100.0, eta, n, 0.5 * rate), 1e-10);  // all that bears, by one law
+  EXPECT_EQ(bounded(hot, 25.0, 0.0), hot);
+  EXPECT_EQ(bounded(0.0, 25.0, rate), 0.0);
+  EXPECT_EQ(bounded(hot, 0.0, rate), 0.0);
+}
+
 // Glass beads of Jop et al. 2006.
 double mu(double p, double norm) {
   const Solid beads{.density = 2500.0, .diameter = 5e-4, .friction = 0.38};

@@ -273,6 +273,11 @@ std::vector<Law> of_contacts() {
        [](const Given& g) {
          return friction_viscosity(g.pressure, 0.4, g.contact.regularisation, 2e-6 * g.shear);
        }},
+      {"viscosity of collisions, bounded", &Units::viscosity,
+       [](const Given& g) {
+         return bounded_kinetic_viscosity(g.liquid.viscosity, g.pressure, 0.4, g.contact.regularisation,
+                                          g.shear);
+       }},
       {"friction that arrests", &Units::number,
        [](const Given& g) { return arrest_friction(g.length, 0.4, 0.6, 1.65, g.solid.diameter); }},
       {"friction between", &Units::number,

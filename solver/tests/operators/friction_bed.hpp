@@ -27,6 +27,7 @@ struct Bed {
     inertia.update(s.grid, s.scene, f_s, Field(s.grid, 1.0));
     s.boundary.fill_scalar(rheology.kinetic_viscosity);
     s.boundary.fill_scalar(rheology.enduring_pressure);
+    if (!rheology.kinetic_pressure.empty()) s.boundary.fill_scalar(rheology.kinetic_pressure);
   }
   // The operator stops at a residual of 1e-9 m/s over the face's mass, or at 1e-6 of the first one: a few
   // calls, each from the last one's answer, reach the former.

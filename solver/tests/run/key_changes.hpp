@@ -28,6 +28,7 @@ colour_size = 0.01
 preset = "paper"
 packing = "carried"
 friction_law = "inertial"
+whole_stress_friction = true
 shear_dilatancy = true
 critical_packing = "by-rate"
 thin_layer_arrest = true

@@ -272,6 +272,7 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"part_cells", {"numerics.bed_surface=part-cells"}},
         Variant{"shear_dilatancy", {"model.shear_dilatancy=true"}},
         Variant{"inertial_friction", {"model.friction_law=inertial"}},
+        Variant{"whole_stress_friction", {"model.friction_law=inertial", "model.whole_stress_friction=true"}},
         Variant{"thin_layer_arrest", {"model.thin_layer_arrest=true"}},
         Variant{"agitation_drag", {"model.agitation_drag=true"}},
         Variant{"frictional_restitution", {"model.frictional_restitution=true"}},
