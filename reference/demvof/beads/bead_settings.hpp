@@ -33,8 +33,13 @@ struct Obstacles {
   bool fill(const std::array<int, 3>& cell) const {
     for (std::size_t d = 0; d < 3; ++d)
       if (cell[d] < 0 || cell[d] >= cells[d]) return false;
-    return !closed.empty() &&
-           closed[static_cast<std::size_t>((cell[2] * cells[1] + cell[1]) * cells[0] + cell[0])] != 0;
+    return !closed.empty() && closed[index(cell)] != 0;
+  }
+  std::size_t index(const std::array<int, 3>& cell) const {
+    std::size_t at = 0;
+    for (std::size_t d = 3; d-- > 0;)
+      at = at * static_cast<std::size_t>(cells[d]) + static_cast<std::size_t>(cell[d]);
+    return at;
   }
 };
 

@@ -36,10 +36,7 @@ class Parts {
   int below_the_top() const { return below_the_top_; }  // those that do not reach the tank's top
 
  private:
-  std::vector<char>::reference seen(const Place& at) {
-    return seen_[static_cast<std::size_t>((at[2] * obstacles_.cells[1] + at[1]) * obstacles_.cells[0] +
-                                          at[0])];
-  }
+  std::vector<char>::reference seen(const Place& at) { return seen_[obstacles_.index(at)]; }
 
   void fill(const Place& first) {
     bool top = false;
@@ -101,9 +98,7 @@ Obstacles obstacles_on(const Scene& gridded) {
                   0);
   for (const granvof::Box& box : gridded.obstacles) {
     const granvof::BoxCells cells = granvof::cells_of(box, o.spacing, gridded.dimensions);
-    for_each(cells.lower, cells.upper, [&](const Place& at) {
-      o.closed[static_cast<std::size_t>((at[2] * o.cells[1] + at[1]) * o.cells[0] + at[0])] = 1;
-    });
+    for_each(cells.lower, cells.upper, [&](const Place& at) { o.closed[o.index(at)] = 1; });
   }
   return o;
 }
