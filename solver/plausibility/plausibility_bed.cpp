@@ -5,6 +5,7 @@
 
 #include "solver/closures/elastic_energy.hpp"
 #include "solver/plausibility/plausibility_rows.hpp"
+#include "solver/scene/gravity.hpp"
 #include "solver/scene/parts.hpp"
 #include "solver/scene/scales.hpp"
 
@@ -30,6 +31,15 @@ Usual fractions_that_rest(const Scene& s) {
     (springs(s, middle) > largest_spring ? springs_up : rests) = middle;
   }
   return {0.0, rests};
+}
+
+// Grains flow down an incline without an end, sheared by mu(I), a law of the whole stress, and by collisions.
+bool counts_rate_twice(const Scene& s) {
+  Model whole = s.model;
+  whole.whole_stress_friction = true;
+  return s.bed && gravity_of(s)[0] != confined_gravity(s)[0] &&
+         s.sides[bottom].solid.kind == WallKind::no_slip && word_of(s.model.friction_law) == "inertial" &&
+         whole.bounds_collisions() && !s.model.bounds_collisions();
 }
 
 // Grains that the bed holds, were it as deep as the tank.
@@ -96,6 +106,17 @@ std::vector<Row> bed_rows() {
             return Usual{s.bed->solid_fraction / grains_of_bed(s), infinity};
           },
           "the bed holds not one grain of solid.diameter"),
+      row(
+          "tank.inclination", "degrees",
+          [](const Scene& s) {
+            return counts_rate_twice(s) ? Number(std::fabs(s.inclination)) : std::nullopt;
+          },
+          [](const Scene& s) {
+            return Usual{0.0, std::atan(s.solid.friction) * 180.0 / std::numbers::pi};
+          },
+          "grains that run down an incline are held by mu(I) and by collisions, which count the rate of "
+          "shear twice: "
+          "model.whole_stress_friction = true counts it once"),
       row(
           "bed.colour_size", "m",
           [](const Scene& s) {

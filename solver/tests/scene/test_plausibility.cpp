@@ -219,6 +219,24 @@ TEST(Plausibility, APressureWithoutWeightIsAMatterOfTheRunsLength) {
 }
 
 // A bed of a few hundred grains is one; of half a grain it is none.
+// A chute on which mu(I) and collisions both grow with the rate of shear; a block on a Coulomb floor is none,
+// nor is what lies flatter than its friction.
+TEST(Plausibility, AChuteCountsTheRateOfShearOnce) {
+  const auto on_a_chute = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"walls.left=periodic", "walls.right=periodic", "walls.bottom=no-slip",
+                               "gate=false", "liquid=false", "bed.length=0.3", "model.preset=advised"});
+    return keys_of(plausibility(small(more)));
+  };
+  const std::vector<std::string> said{"tank.inclination"};
+  EXPECT_EQ(on_a_chute({"tank.inclination=26"}), said);
+  EXPECT_EQ(on_a_chute({"tank.inclination=-26"}), said);
+  EXPECT_NE(on_a_chute({"tank.inclination=15"}), said);
+  for (const char* other :
+       {"model.whole_stress_friction=true", "model.kinetic_viscosity=false", "model.friction_law=constant",
+        "walls.bottom={fluid=\"slip\", solid=\"coulomb\", solid_friction=0.3}"})
+    EXPECT_NE(on_a_chute({"tank.inclination=26", other}), said) << other;
+}
+
 TEST(Plausibility, ABedHoldsAGrainAtLeast) {
   const Scene scene = small();
   const double one = std::numbers::pi / 6.0 * std::pow(scene.solid.diameter, 3) /
