@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/closures/contact_friction.hpp"
+#include "solver/closures/friction/laws.hpp"
 #include "solver/tests/operators/friction_bed.hpp"
 
 namespace granvof {
@@ -96,7 +97,7 @@ TEST(Friction, OfTheWholeStress) {
     EXPECT_EQ(shear<viscosity, rate> 1.0);
     EXPECT_NEAR(bed.spends(rate, 0.0, spent).friction, of_contacts, 1e-5 * of_contacts);
     EXPECT_NEAR(spent[middle], shear * rate * rate, 1e-6 * shear * rate * rate);
-    EXPECT_NEAR(bed.friction.yields_otherwise(bed.rheology, bed.next), 0.0, 1e-5);
+    EXPECT_NEAR(bed.friction.yields_otherwise(bed.rheology, bed.next).share, 0.0, 1e-5);
   }
   constexpr double rate = 10.0, expansion = 4.0;  // [1/s]
   const double shear = bounded(std::sqrt(0.5 * (0.5 * rate * rate + expansion * expansion)));
