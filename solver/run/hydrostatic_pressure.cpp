@@ -201,7 +201,7 @@ class BesideTheMean {
     }
     // of all processes, whose solver it is
     const double largest =
-        max_over(l, grid_.all_cells(), largest_, [](std::ptrdiff_t /*cell*/) { return 0.0; });
+        max_over(l, grid_.all_cells(), largest_, [=](std::ptrdiff_t /*cell*/) { return 0.0; });
     linear::ScalarSolver(l, grid_.h)
         .solve(faces, mass_.data(), rhs_.data(), beside_.data(), {rounding * largest, 0.0, most_iterations});
     return std::move(beside_);
