@@ -149,7 +149,8 @@ std::optional<EvenShear> printed_even_shear(const Scene& scene) {
   const Model& model = scene.model;
   const double speed = scene.sides[top].velocity[0] - scene.sides[bottom].velocity[0];
   if (!scene.bed || speed <= 0.0 || word_of(model.granular_temperature) != "transported" ||
-      model.correlated_collisions || model.bounds_collisions() || word_of(model.critical_packing) == "by-rate")
+      model.correlated_collisions || model.bounds_collisions() ||
+      word_of(model.critical_packing) == "by-rate")
     return std::nullopt;
   const Solid& solid = scene.solid;
   const double high = scene.bed->box.upper[1] - scene.bed->box.lower[1];

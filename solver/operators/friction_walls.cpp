@@ -10,8 +10,8 @@ namespace {
 
 constexpr double slowest_sliding =
     1e-7;  // of the scene's velocity: below it a Coulomb wall holds like a viscous one
-// Of the fastest slip on Coulomb walls: a smaller change of it within a step passes for none. What drives beyond
-// the friction by less than that share begins to slide after a number of steps and not after a time.
+// Of the fastest slip on Coulomb walls: a smaller change of it within a step passes for none. What drives
+// beyond the friction by less than that share begins to slide after a number of steps and not after a time.
 constexpr double settled_slip = 0.005;
 
 // Edges of plane (d, e) on a side of the tank across direction d, within the box.
