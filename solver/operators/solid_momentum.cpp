@@ -43,7 +43,7 @@ linear::Report SolidMomentum::solve(double dt, const State& now, const MomentumP
     const Friction::Missed missed = friction_.yields_otherwise(rheology, next);
     // it misses as much in every pass
     creeps = dt < relaxation_ && missed.share <= missed_friction && missed.share > 0.5 * share_before &&
-             missed.held * dt > missed_motion * kinetic_energy(inertia, next);
+             missed.held > 0.0 && missed.held * dt > missed_motion * kinetic_energy(inertia, next);
     share_before = missed.share;
     if (creeps || missed.share > missed_friction) return false;
     return !friction_.has_coulomb_walls() || (pass > 1 && !friction_.slips_otherwise(next));
