@@ -183,20 +183,30 @@ TEST(EnergyLedger, ALoneBeadLosesItsSubmergedWeightToDrag) {
   EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);
 }
 
-// A bed falling through water: potential energy goes into drag, and the budget closes.
-TEST(EnergyLedger, AFallingBedLosesItsEnergyToDrag) {
-  const TankSetup s = tank(4, 24, 2.5e-3, 4e-3, FluidSide::slip);
+// What a bed of beads has lost of its height after so many steps, and the account of it [J].
+struct Fallen {
+  double given;
+  EnergyTerms terms;
+};
+Fallen fall(const TankSetup& s, double share, const demvof::Vector& lower, const demvof::Vector& upper,
+            double dt, int steps) {
   std::mt19937 random(2);
   const double volume = std::numbers::pi / 6.0 * std::pow(s.beads.diameter, 3);
-  const auto count = static_cast<std::size_t>(0.4 * 0.01 * 0.03 * 4e-3 / volume);
-  const auto position =
-      demvof::disperse_beads(count, {0, 0.02, 0}, {0.01, 0.05, 4e-3}, true, s.beads.diameter, random);
-  CoupledRun run = start(s, position, 1e-4);
+  const double box = (upper[0] - lower[0]) * (upper[1] - lower[1]) * (upper[2] - lower[2]);
+  const auto count = static_cast<std::size_t>(share * box / volume);
+  const auto position = demvof::disperse_beads(count, lower, upper, true, s.beads.diameter, random);
+  CoupledRun run = start(s, position, dt);
   EnergyLedger ledger(run);
   const double before = ledger.terms().potential;
-  for (int n = 0; n < 1500; ++n) run.step(1e-4);
+  for (int n = 0; n < steps; ++n) run.step(dt);
   const EnergyTerms terms = ledger.terms();
-  const double given = before - terms.potential;
+  return {before - terms.potential, terms};
+}
+
+// A bed falling through water: potential energy goes into drag, and the budget closes.
+TEST(EnergyLedger, AFallingBedLosesItsEnergyToDrag) {
+  const auto [given, terms] =
+      fall(tank(4, 24, 2.5e-3, 4e-3, FluidSide::slip), 0.4, {0, 0.02, 0}, {0.01, 0.05, 4e-3}, 1e-4, 1500);
   EXPECT_GT(given, 0.0);
   EXPECT_GT(terms.drag, 0.6 * given);
   EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);
@@ -208,17 +218,7 @@ TEST(EnergyLedger, ABedThatFallsOnAStepClosesItsBudget) {
   s.fluid.liquid_density = 1.0;
   s.fluid.liquid_viscosity = 1e-5;
   put_obstacle(s, {4, 0}, {8, 3});
-  std::mt19937 random(2);
-  const double volume = std::numbers::pi / 6.0 * std::pow(s.beads.diameter, 3);
-  const auto count = static_cast<std::size_t>(0.2 * 0.02 * 0.015 * 4e-3 / volume);
-  const auto position =
-      demvof::disperse_beads(count, {0, 0.012, 0}, {0.02, 0.027, 4e-3}, true, s.beads.diameter, random);
-  CoupledRun run = start(s, position, 2e-4);
-  EnergyLedger ledger(run);
-  const double before = ledger.terms().potential;
-  for (int n = 0; n < 500; ++n) run.step(2e-4);
-  const EnergyTerms terms = ledger.terms();
-  const double given = before - terms.potential;
+  const auto [given, terms] = fall(s, 0.2, {0, 0.012, 0}, {0.02, 0.027, 4e-3}, 2e-4, 500);
   EXPECT_GT(given, 0.0);
   EXPECT_GT(terms.walls, 0.05 * given);
   EXPECT_NEAR(terms.residual, 0.0, 0.01 * given);

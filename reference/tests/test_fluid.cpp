@@ -12,9 +12,11 @@ using demvof::Fluid;
 using demvof::FluidSettings;
 using demvof::FluidSide;
 using demvof::MomentumConvection;
+using demvof::test::expect_that_a_gate_blocks;
 using demvof::test::filled_to;
 using demvof::test::fluid_tank;
 using demvof::test::no_beads;
+using demvof::test::right_of_gate;
 
 }  // namespace
 
@@ -74,24 +76,15 @@ TEST(Fluid, ADamBreakKeepsItsLiquidAndStaysBounded) {
 // Water on the left of a closed gate stays there; with the gate half open it leaves.
 TEST(Fluid, AGateBlocksTheFluid) {
   const FluidSettings s = fluid_tank(32, 16);
-  const BeadLoad load = no_beads(512);
-  const auto right_half = [](const Fluid& fluid) {
-    double sum = 0.0;
-    for (std::size_t c = 0; c < 512; ++c) sum += c % 32 >= 10 ? fluid.view().alpha[c] : 0.0;
-    return sum;
-  };
-  Fluid closed(s, filled_to(s, 0.03, 10), std::vector<double>(512, 1.0));
-  closed.set_gate(10, std::vector<double>(16, 0.0));
-  for (int n = 0; n < 50; ++n) closed.step(2e-4, load);
-  EXPECT_LT(right_half(closed), 1e-9);
-  EXPECT_LT(closed.largest_speed(), 1e-3);
+  expect_that_a_gate_blocks(s);
 
+  const BeadLoad load = no_beads(512);
   Fluid open(s, filled_to(s, 0.03, 10), std::vector<double>(512, 1.0));
   std::vector<double> share(16, 0.0);
   for (std::size_t j = 0; j < 4; ++j) share[j] = 1.0;
   open.set_gate(10, share);
   for (int n = 0; n < 50; ++n) open.step(2e-4, load);
-  EXPECT_GT(right_half(open), 1.0);
+  EXPECT_GT(right_of_gate(s, open), 1.0);
 }
 
 // A uniform force on the fluid of a closed column builds up its own pressure gradient.

@@ -14,6 +14,7 @@ using demvof::BeadLoad;
 using demvof::Fluid;
 using demvof::FluidSettings;
 using demvof::FluidSide;
+using demvof::test::expect_that_a_gate_blocks;
 using demvof::test::filled_to;
 using demvof::test::fluid_tank;
 using demvof::test::no_beads;
@@ -141,17 +142,7 @@ TEST(FluidObstacles, AGateBesideThemBlocksTheFluid) {
   FluidSettings s = fluid_tank(32, 16);
   put_obstacle(s, {{12, 0}}, {{16, 3}});
   put_obstacle(s, {{12, 5}}, {{16, 14}});
-  const BeadLoad load = no_beads(512);
-  const auto right_half = [](const Fluid& fluid) {
-    double sum = 0.0;
-    for (std::size_t c = 0; c < 512; ++c) sum += c % 32 >= 10 ? fluid.view().alpha[c] : 0.0;
-    return sum;
-  };
-  Fluid closed(s, filled_to(s, 0.03, 10), std::vector<double>(512, 1.0));
-  closed.set_gate(10, std::vector<double>(16, 0.0));
-  for (int n = 0; n < 50; ++n) closed.step(2e-4, load);
-  EXPECT_LT(right_half(closed), 1e-9);
-  EXPECT_LT(closed.largest_speed(), 1e-3);
+  expect_that_a_gate_blocks(s);
 }
 
 // In three dimensions: a block in the middle, still water about and above it.
